@@ -1,0 +1,137 @@
+#pragma once
+
+#include "hovercraft_sim/math/quaternion.h"
+#include "hovercraft_sim/math/rotation.h"
+#include "hovercraft_sim/math/vector.h"
+
+namespace hovercraft {
+
+/// State of a rigid body, Y = (x, q or R, P, L) of (24). W is the world, B the body frame at the
+/// centre of mass.
+///
+/// The momenta are the state and velocities are derived from it: dP/dt = F and dL/dt = M are then
+/// exact, and a free body keeps both to the last bit.
+/// @tparam Orientation Quaternion (unit) or Matrix3 (rotation), B -> W.
+template <class Orientation>
+struct RigidBodyState {
+  Vector3 p_WB = Vector3::Zero();                // m
+  Orientation orientation;                       // B -> W
+  Vector3 momentum_W = Vector3::Zero();          // P, kg m/s
+  Vector3 angular_momentum_W = Vector3::Zero();  // L about the centre of mass, kg m^2/s
+};
+
+/// Resultant force (N) and moment about the centre of mass (N m), in W unless a name says
+/// otherwise.
+struct Wrench {
+  Vector3 force = Vector3::Zero();
+  Vector3 torque = Vector3::Zero();
+};
+
+inline Wrench operator+(const Wrench& a, const Wrench& b) {
+  return {a.force + b.force, a.torque + b.torque};
+}
+
+/// Velocity of the centre of mass (m/s) and angular velocity (rad/s), in W.
+struct Twist {
+  Vector3 v_WB = Vector3::Zero();
+  Vector3 w_WB = Vector3::Zero();
+};
+
+/// dY/dt of (24).
+template <class Orientation>
+struct StateDerivative {
+  Vector3 v_WB;
+  Orientation orientation_rate;  // not a rotation: ½[0,w]q or skew(w)R
+  Vector3 force_W;
+  Vector3 torque_W;
+};
+
+/// Wrench about the centre of mass of the force f_W that acts at the world point p_WP (10), all in
+/// W.
+inline Wrench wrenchOfForceAt(const Vector3& f_W, const Vector3& p_WP, const Vector3& p_WB) {
+  return {f_W, cross(p_WP - p_WB, f_W)};
+}
+
+/// Velocity in W of the body point at p_WP: v + w × (p - x) (physics.md 1; the source leaves the
+/// second term out).
+inline Vector3 velocityOfPoint(const Twist& twist, const Vector3& p_WP, const Vector3& p_WB) {
+  return twist.v_WB + cross(twist.w_WB, p_WP - p_WB);
+}
+
+inline Matrix3 rotationMatrix(const Matrix3& R_WB) {
+  return R_WB;
+}
+
+inline Quaternion orientationRate(const Vector3& w_WB, const Quaternion& q_WB) {
+  return quaternionRateWorld(w_WB, q_WB);
+}
+inline Matrix3 orientationRate(const Vector3& w_WB, const Matrix3& R_WB) {
+  return rotationRate(w_WB, R_WB);
+}
+
+/// Back onto the unit sphere. A projection along the shortest way moves the result by no more than
+/// its distance from the sphere, which a stepper of order p leaves at O(h^(p+1)): the order
+/// survives.
+inline Quaternion renormalized(const Quaternion& q) {
+  return normalized(q);
+}
+/// Back onto SO(3), likewise.
+inline Matrix3 renormalized(const Matrix3& R) {
+  return nearestRotation(R);
+}
+
+inline Quaternion toQuaternion(const Quaternion& q_WB) {
+  return q_WB;
+}
+inline Quaternion toQuaternion(const Matrix3& R_WB) {
+  return quaternionFromMatrix(R_WB);
+}
+
+/// How a body answers forces: m⁻¹ and Î⁻¹ in B, both already restricted to the motions that its
+/// model allows.
+class Mobility {
+ public:
+  /// All six degrees of freedom. @param mass kg, > 0. @param I_BBo_B kg m², positive definite,
+  /// about the centre of mass.
+  static Mobility spatial(double mass, const Matrix3& I_BBo_B);
+
+  /// The same body held to (x, y, yaw): force and velocity keep x and y, moment and angular
+  /// velocity keep z. The bearing that holds roll and pitch takes what products of inertia would
+  /// turn, hence w_z = L_z / I_zz.
+  static Mobility planar(double mass, const Matrix3& I_BBo_B);
+
+  /// The part of a wrench (in W) that moves the body.
+  Wrench project(const Wrench& wrench) const {
+    return {wrench.force.cwiseProduct(free_translation_),
+            wrench.torque.cwiseProduct(free_rotation_)};
+  }
+
+  /// v = P/m, w = R Î⁻¹ Rᵀ L (after (24)).
+  template <class Orientation>
+  Twist twist(const RigidBodyState<Orientation>& state, const Matrix3& R_WB) const {
+    const Vector3 w_WB_B =
+        times(inverse_inertia_B_, transposeTimes(R_WB, state.angular_momentum_W));
+    return {inverse_mass_ * state.momentum_W, times(R_WB, w_WB_B)};
+  }
+  template <class Orientation>
+  Twist twist(const RigidBodyState<Orientation>& state) const {
+    return twist(state, rotationMatrix(state.orientation));
+  }
+
+ private:
+  Mobility() = default;
+
+  double inverse_mass_ = 0.0;                    // 1/kg
+  Matrix3 inverse_inertia_B_ = Matrix3::Zero();  // 1/(kg m²)
+  Vector3 free_translation_ = Vector3::Ones();   // 1 where the model moves, in W
+  Vector3 free_rotation_ = Vector3::Ones();
+};
+
+/// Kinetic energy ½ P·v + ½ L·w, J.
+template <class Orientation>
+double kineticEnergy(const RigidBodyState<Orientation>& state, const Mobility& mobility) {
+  const Twist twist = mobility.twist(state);
+  return 0.5 * dot(state.momentum_W, twist.v_WB) + 0.5 * dot(state.angular_momentum_W, twist.w_WB);
+}
+
+}  // namespace hovercraft

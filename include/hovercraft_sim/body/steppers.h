@@ -1,0 +1,104 @@
+#pragma once
+
+#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/math/demand.h"
+
+/// One step of the equation dY/dt = f(t, Y) of (24), each method a pure function of the state.
+///
+/// The system passed in is any type with two const members, templates on the orientation:
+///   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>&, Stage) const;
+///   Twist twist(const RigidBodyState<Orientation>&) const;
+/// `Stage` says which time within the step the forces are wanted for, so that a force that depends
+/// on time keeps the order of the method. Every method ends by bringing the orientation back to a
+/// rotation.
+
+namespace hovercraft {
+
+/// The time of a stage within one step: t, t + h/2, t + h.
+enum class Stage { kStart, kMiddle, kEnd };
+
+enum class Integrator { kEuler, kSemiImplicitEuler, kHeun, kRungeKutta4 };
+
+template <class Orientation>
+StateDerivative<Orientation> operator+(const StateDerivative<Orientation>& a,
+                                       const StateDerivative<Orientation>& b) {
+  return {a.v_WB + b.v_WB, a.orientation_rate + b.orientation_rate, a.force_W + b.force_W,
+          a.torque_W + b.torque_W};
+}
+
+/// Y + h k, without renormalisation.
+template <class Orientation>
+RigidBodyState<Orientation> moved(const RigidBodyState<Orientation>& state, double h,
+                                  const StateDerivative<Orientation>& k) {
+  return {state.p_WB + h * k.v_WB, state.orientation + h * k.orientation_rate,
+          state.momentum_W + h * k.force_W, state.angular_momentum_W + h * k.torque_W};
+}
+
+/// Explicit Euler, order 1: Y + h f(t, Y).
+template <class Orientation, class System>
+RigidBodyState<Orientation> eulerStep(const RigidBodyState<Orientation>& y, const System& f,
+                                      double h) {
+  return moved(y, h, f.derivative(y, Stage::kStart));
+}
+
+/// Semi-implicit (symplectic) Euler, order 1: momenta first, then position and orientation with the
+/// new velocities (the source's section 4).
+template <class Orientation, class System>
+RigidBodyState<Orientation> semiImplicitEulerStep(const RigidBodyState<Orientation>& y,
+                                                  const System& f, double h) {
+  StateDerivative<Orientation> k = f.derivative(y, Stage::kStart);
+  RigidBodyState<Orientation> kicked = y;
+  kicked.momentum_W += h * k.force_W;
+  kicked.angular_momentum_W += h * k.torque_W;
+  const Twist twist = f.twist(kicked);
+  k.v_WB = twist.v_WB;
+  k.orientation_rate = orientationRate(twist.w_WB, y.orientation);
+  return moved(y, h, k);
+}
+
+/// Heun, order 2: Y + h/2 (k1 + k2), k2 at the end of an Euler step (the source's formula with its
+/// first slope).
+template <class Orientation, class System>
+RigidBodyState<Orientation> heunStep(const RigidBodyState<Orientation>& y, const System& f,
+                                     double h) {
+  const auto k1 = f.derivative(y, Stage::kStart);
+  const auto k2 = f.derivative(moved(y, h, k1), Stage::kEnd);
+  return moved(y, 0.5 * h, k1 + k2);
+}
+
+/// Classical Runge-Kutta, order 4: Y + h/6 (k1 + 2 k2 + 2 k3 + k4).
+template <class Orientation, class System>
+RigidBodyState<Orientation> rungeKutta4Step(const RigidBodyState<Orientation>& y, const System& f,
+                                            double h) {
+  const auto k1 = f.derivative(y, Stage::kStart);
+  const auto k2 = f.derivative(moved(y, 0.5 * h, k1), Stage::kMiddle);
+  const auto k3 = f.derivative(moved(y, 0.5 * h, k2), Stage::kMiddle);
+  const auto k4 = f.derivative(moved(y, h, k3), Stage::kEnd);
+  const auto middle = k2 + k3;
+  return moved(y, h / 6.0, (k1 + k4) + (middle + middle));
+}
+
+/// One step of length h (s) by the chosen method; the orientation of the result is a rotation
+/// again.
+template <class Orientation, class System>
+RigidBodyState<Orientation> integrationStep(Integrator integrator,
+                                            const RigidBodyState<Orientation>& y, const System& f,
+                                            double h) {
+  const auto next = [&] {
+    switch (integrator) {
+      case Integrator::kEuler:
+        return eulerStep(y, f, h);
+      case Integrator::kSemiImplicitEuler:
+        return semiImplicitEulerStep(y, f, h);
+      case Integrator::kHeun:
+        return heunStep(y, f, h);
+      case Integrator::kRungeKutta4:
+        return rungeKutta4Step(y, f, h);
+    }
+    demand(false, "unknown integrator");
+    return y;
+  }();
+  return {next.p_WB, renormalized(next.orientation), next.momentum_W, next.angular_momentum_W};
+}
+
+}  // namespace hovercraft

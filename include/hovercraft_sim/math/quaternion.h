@@ -1,0 +1,100 @@
+#pragma once
+
+#include "hovercraft_sim/math/vector.h"
+
+namespace hovercraft {
+
+/// A quaternion q = [s, v] (25). A unit quaternion q_WB turns components in B into components in W;
+/// q and -q are the same rotation. Not Eigen's: its alignment depends on the instruction set, and
+/// so do its products.
+struct Quaternion {
+  double s = 1.0;
+  Vector3 v = Vector3::Zero();
+
+  static Quaternion identity() { return {}; }
+};
+
+/// Element by element: quaternions as vectors of four dimensions.
+inline Quaternion operator+(const Quaternion& a, const Quaternion& b) {
+  return {a.s + b.s, a.v + b.v};
+}
+inline Quaternion operator*(double factor, const Quaternion& q) {
+  return {factor * q.s, factor * q.v};
+}
+
+/// Product (26): [s1 s2 - v1·v2, s1 v2 + s2 v1 + v1 × v2].
+inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+  return {a.s * b.s - dot(a.v, b.v), (a.s * b.v + b.s * a.v) + cross(a.v, b.v)};
+}
+
+/// q* = [s, -v] (29).
+inline Quaternion conjugate(const Quaternion& q) {
+  return {q.s, -q.v};
+}
+
+inline double squaredNorm(const Quaternion& q) {
+  return q.s * q.s + dot(q.v, q.v);
+}
+
+inline double norm(const Quaternion& q) {
+  return std::sqrt(squaredNorm(q));
+}
+
+/// q / |q|; the caller makes sure that q is not zero.
+inline Quaternion normalized(const Quaternion& q) {
+  return (1.0 / norm(q)) * q;
+}
+
+/// dq/dt = ½ [0, w_WB] q (27), angular velocity in W, rad/s.
+inline Quaternion quaternionRateWorld(const Vector3& w_WB, const Quaternion& q_WB) {
+  return 0.5 * (Quaternion{0.0, w_WB} * q_WB);
+}
+
+/// dq/dt = ½ q [0, w_WB_B] (after (27)), angular velocity in B, rad/s.
+inline Quaternion quaternionRateBody(const Quaternion& q_WB, const Vector3& w_WB_B) {
+  return 0.5 * (q_WB * Quaternion{0.0, w_WB_B});
+}
+
+/// v_W = q v_B q* (28), for a unit q.
+inline Vector3 rotate(const Quaternion& q_WB, const Vector3& v_B) {
+  return (q_WB * Quaternion{0.0, v_B} * conjugate(q_WB)).v;
+}
+
+/// R(q) for a unit q (physics.md 3).
+inline Matrix3 rotationMatrix(const Quaternion& q_WB) {
+  const double s = q_WB.s;
+  const double x = q_WB.v.x();
+  const double y = q_WB.v.y();
+  const double z = q_WB.v.z();
+  Matrix3 R_WB;
+  R_WB(0, 0) = 1.0 - 2.0 * (y * y + z * z);
+  R_WB(0, 1) = 2.0 * (x * y - s * z);
+  R_WB(0, 2) = 2.0 * (x * z + s * y);
+  R_WB(1, 0) = 2.0 * (x * y + s * z);
+  R_WB(1, 1) = 1.0 - 2.0 * (x * x + z * z);
+  R_WB(1, 2) = 2.0 * (y * z - s * x);
+  R_WB(2, 0) = 2.0 * (x * z - s * y);
+  R_WB(2, 1) = 2.0 * (y * z + s * x);
+  R_WB(2, 2) = 1.0 - 2.0 * (x * x + y * y);
+  return R_WB;
+}
+
+/// The unit quaternion of a rotation matrix, with s >= 0 where s decides (Shepperd 1978: the
+/// largest of the four components is taken from the diagonal, so that nothing is divided by a small
+/// number).
+Quaternion quaternionFromMatrix(const Matrix3& R_WB);
+
+/// q = [cos θ/2, sin θ/2 u]. @param axis unit vector. @param theta rad.
+Quaternion quaternionFromAxisAngle(const Vector3& axis, double theta);
+
+/// Fixed-axis roll, pitch, yaw in rad, as rotationFromRpy().
+Quaternion quaternionFromRpy(const Vector3& rpy);
+
+/// Fixed-axis roll, pitch, yaw in rad of a unit quaternion; pitch in [-pi/2, pi/2].
+Vector3 rpyFromQuaternion(const Quaternion& q_WB);
+
+/// The angle of the rotation from a to b, rad in [0, pi]; accurate for small ones. For reports and
+/// tests.
+double angleBetween(const Quaternion& a, const Quaternion& b);
+
+}  // namespace hovercraft

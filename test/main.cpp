@@ -1,0 +1,7 @@
+// Every gtest executable's main(): catkin links no gtest_main.
+#include <gtest/gtest.h>
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
