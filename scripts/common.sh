@@ -1,0 +1,157 @@
+# shellcheck shell=bash disable=SC2034
+# Shared by the scripts in this folder; sourced, never run. It moves to the root of the checkout, takes an
+# environment in which ROS 1 works, and offers: install PURPOSE..., enter_ros, note, fail.
+#
+# Packages come from Debian's own archive (11 to 13; Ubuntu from 22.04 on carries the same in universe) or, on
+# Ubuntu 20.04, from the ROS archive (Noetic).
+
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# The system's Python first: catkin and the ROS tools find their modules with no other. What a sourced workspace or a
+# virtual environment left behind goes; a ROS_DISTRO that is set makes Debian's catkin fail.
+export PATH="/usr/bin:/bin:/usr/sbin:/sbin:$PATH"
+export ROS_HOSTNAME=localhost
+unset ROS_DISTRO ROS_IP ROS_MASTER_URI ROS_NAMESPACE ROS_PACKAGE_PATH CMAKE_PREFIX_PATH PYTHONPATH PYTHONHOME
+
+readonly RELEASE_BUILD=build/release
+JOBS=$(nproc)
+readonly JOBS
+
+note() { printf '\n== %s\n' "$*"; }
+fail() {
+  printf '%s: %s\n' "${0##*/}" "$*" >&2
+  exit 1
+}
+
+# The system, such as "debian 12".
+system_name() {
+  (
+    ID='' VERSION_ID=''
+    # shellcheck disable=SC1091
+    [[ ! -r /etc/os-release ]] || . /etc/os-release
+    echo "$ID $VERSION_ID"
+  )
+}
+
+# Where its packages come from: debian, noetic (the ROS archive) or unknown.
+system_family() {
+  case "$(system_name)" in
+    'debian 11' | 'debian 12' | 'debian 13' | 'ubuntu 22.04' | 'ubuntu 24.04') echo debian ;;
+    'ubuntu 20.04') echo noetic ;;
+    *) echo unknown ;;
+  esac
+}
+
+# The packages for one purpose: build (and run), test, lint, demo, rviz.
+packages_for() {
+  local common
+  case "$1" in
+    build) common='g++ make cmake pkg-config libassimp-dev libboost-dev libboost-program-options-dev libeigen3-dev
+      libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
+    test) common='clang libbenchmark-dev libgtest-dev' ;;
+    lint) common='clang-format clang-tidy catkin-lint' ;;
+    demo) common='python3-matplotlib' ;;
+    rviz) common='' ;;
+    *) fail "no packages are listed for '$1'" ;;
+  esac
+  # shellcheck disable=SC2086
+  echo $common
+  "packages_of_$(system_family)" "$1"
+}
+
+# ros-std-msgs and its like hold the .msg files, the lib*-dev packages the generated headers.
+packages_of_debian() {
+  case "$1" in
+    build) echo catkin ros-message-generation libdiagnostic-updater-dev libgeometry-msgs-dev libnav-msgs-dev \
+      librosbag-dev libroscpp-dev libros-rosgraph-msgs-dev libstd-msgs-dev libtf2-geometry-msgs-dev libtf2-msgs-dev \
+      libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs python3-rosbag python3-roslaunch \
+      rosbash rosout ;;
+    test)
+      echo librostest-dev python3-rostest python3-rostopic python3-rosnode python3-rosmsg python3-rosservice
+      # The runtime of clang's sanitizers; before, it was part of what clang depends on.
+      case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac
+      ;;
+    rviz) echo rviz ;;
+  esac
+}
+
+packages_of_noetic() {
+  case "$1" in
+    build) printf 'ros-noetic-%s ' catkin diagnostic-updater geometry-msgs message-generation nav-msgs rosbag rosbash \
+      roscpp rosgraph-msgs roslaunch rosout std-msgs tf2-geometry-msgs tf2-msgs tf2-ros visualization-msgs ;;
+    test) printf 'ros-noetic-%s ' rostest rostopic rosnode rosmsg rosservice ;;
+    rviz) printf 'ros-noetic-%s ' rviz ;;
+  esac
+}
+
+# install PURPOSE...: installs by apt what these purposes lack; does nothing, and needs no network, if nothing is missing.
+install() {
+  if [[ $(system_family) == unknown ]]; then
+    explain_unknown_system "$@"
+    return
+  fi
+  local missing=() package purpose
+  for purpose in "$@"; do
+    for package in $(packages_for "$purpose"); do
+      is_installed "$package" || missing+=("$package")
+    done
+  done
+  if [[ ${#missing[@]} -eq 0 ]]; then
+    return
+  fi
+  note "Installing ${#missing[@]} packages and what they need"
+  local as_root=()
+  if [[ $EUID -ne 0 ]]; then
+    command -v sudo > /dev/null || fail "as root, run: apt-get install --no-install-recommends ${missing[*]}"
+    as_root=(sudo)
+  fi
+  # An index that cannot be fetched matters only if a package is then not found.
+  "${as_root[@]}" apt-get update -qq || note 'apt-get update failed; going on with the index that is there'
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends \
+    -o Dpkg::Use-Pty=0 "${missing[@]}" > /dev/null || explain_failed_install "${missing[@]}"
+}
+
+is_installed() {
+  [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null) == installed ]]
+}
+
+explain_failed_install() {
+  if [[ $(system_family) == noetic ]]; then
+    fail "apt could not install: $*. ROS Noetic's own archive must be among apt's sources:" \
+      'http://wiki.ros.org/noetic/Installation/Ubuntu, steps 1.2 and 1.3'
+  fi
+  fail "apt could not install: $*"
+}
+
+# On a system whose package names are not known: goes on if ROS and the compiler are there, else says what is needed.
+explain_unknown_system() {
+  if command -v cmake > /dev/null && command -v roslaunch > /dev/null; then
+    note 'This system is none of Debian 11 to 13, Ubuntu 20.04 to 24.04: nothing is installed, what is there is used'
+    return
+  fi
+  cat >&2 << 'TEXT'
+This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install these by hand, then run this again:
+  a C++17 compiler, make, CMake 3.16, pkg-config, Python 3 with matplotlib
+  assimp, Boost (program_options), Eigen 3.3, fmt, qhull, yaml-cpp (with their headers)
+  ROS 1: catkin, roscpp, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, std_msgs, rosgraph_msgs, visualization_msgs,
+  diagnostic_updater, message_generation, roslaunch, rosbash, rosout; for the tests also rostest, rostopic, gtest, clang;
+  for pictures of the running simulation rviz
+TEXT
+  exit 1
+}
+
+# Takes ROS into the environment where it lies outside /usr.
+enter_ros() {
+  if [[ $(system_family) == noetic ]]; then
+    set +u
+    # shellcheck disable=SC1091
+    . /opt/ros/noetic/setup.bash
+    set -u
+  fi
+}
+
+# A TCP port of this machine that nobody listens on, for a roscore of our own beside any other.
+free_port() {
+  python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
+}
