@@ -7,6 +7,8 @@ namespace hovercraft {
 Mobility Mobility::spatial(double mass, const Matrix3& I_BBo_B) {
   demand(mass > 0.0 && determinant(I_BBo_B) > 0.0, "mass and inertia must be checked before");
   Mobility mobility;
+  mobility.mass_ = mass;
+  mobility.inertia_B_ = I_BBo_B;
   mobility.inverse_mass_ = 1.0 / mass;
   mobility.inverse_inertia_B_ = inverse(I_BBo_B);
   return mobility;
@@ -15,6 +17,8 @@ Mobility Mobility::spatial(double mass, const Matrix3& I_BBo_B) {
 Mobility Mobility::planar(double mass, const Matrix3& I_BBo_B) {
   demand(mass > 0.0 && I_BBo_B(2, 2) > 0.0, "mass and inertia must be checked before");
   Mobility mobility;
+  mobility.mass_ = mass;
+  mobility.inertia_B_ = I_BBo_B;
   mobility.inverse_mass_ = 1.0 / mass;
   mobility.inverse_inertia_B_(2, 2) = 1.0 / I_BBo_B(2, 2);
   mobility.free_translation_ = {1.0, 1.0, 0.0};

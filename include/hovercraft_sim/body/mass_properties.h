@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -25,6 +26,17 @@ MassProperties cylinderMassProperties(double mass, double radius, double length)
 /// Axis along z, apex up; the origin of H is the middle of the axis, so that the centre of mass
 /// lies at z = -length/4.
 MassProperties coneMassProperties(double mass, double radius, double length);
+
+/// Volumes of the solids above, m³.
+double boxVolume(const Vector3& size);
+double sphereVolume(double radius);
+double cylinderVolume(double radius, double length);
+double coneVolume(double radius, double length);
+
+/// The homogeneous solid inside a closed mesh, in the frame of the mesh: of a total mass in kg, or
+/// of a density in kg/m³.
+MassProperties meshMassProperties(const TriangleMesh& mesh, double mass);
+MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh, double density);
 
 /// The same solid in a frame G from which H is turned by R_GH and moved by p_GH.
 MassProperties placed(const MassProperties& part, const Matrix3& R_GH, const Vector3& p_GH);

@@ -106,21 +106,37 @@ class Mobility {
             wrench.torque.cwiseProduct(free_rotation_)};
   }
 
-  /// v = P/m, w = R Î⁻¹ Rᵀ L (after (24)).
-  template <class Orientation>
-  Twist twist(const RigidBodyState<Orientation>& state, const Matrix3& R_WB) const {
-    const Vector3 w_WB_B =
-        times(inverse_inertia_B_, transposeTimes(R_WB, state.angular_momentum_W));
-    return {inverse_mass_ * state.momentum_W, times(R_WB, w_WB_B)};
+  /// v = P/m.
+  Vector3 velocity(const Vector3& momentum_W) const { return inverse_mass_ * momentum_W; }
+
+  /// w in B = Î⁻¹ Rᵀ L; R times it is the source's R Î⁻¹ Rᵀ L (after (24)).
+  Vector3 angularVelocityInBody(const Vector3& angular_momentum_W, const Matrix3& R_WB) const {
+    return times(inverse_inertia_B_, transposeTimes(R_WB, angular_momentum_W));
   }
+
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
-    return twist(state, rotationMatrix(state.orientation));
+    const Matrix3 R_WB = rotationMatrix(state.orientation);
+    return {velocity(state.momentum_W),
+            times(R_WB, angularVelocityInBody(state.angular_momentum_W, R_WB))};
+  }
+
+  /// The momenta that a body with the given velocities (in W) has, restricted to the model's
+  /// motions.
+  template <class Orientation>
+  RigidBodyState<Orientation> stateOfMotion(const Vector3& p_WB, const Orientation& orientation,
+                                            const Twist& twist) const {
+    const Matrix3 R_WB = rotationMatrix(orientation);
+    const Vector3 L_B = times(inertia_B_, transposeTimes(R_WB, twist.w_WB));
+    const Wrench momenta = project({mass_ * twist.v_WB, times(R_WB, L_B)});
+    return {p_WB, orientation, momenta.force, momenta.torque};
   }
 
  private:
   Mobility() = default;
 
+  double mass_ = 0.0;                            // kg
+  Matrix3 inertia_B_ = Matrix3::Zero();          // kg m²
   double inverse_mass_ = 0.0;                    // 1/kg
   Matrix3 inverse_inertia_B_ = Matrix3::Zero();  // 1/(kg m²)
   Vector3 free_translation_ = Vector3::Ones();   // 1 where the model moves, in W

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/body/steppers.h"
+#include "hovercraft_sim/hovercraft/drag.h"
+#include "hovercraft_sim/hovercraft/engines.h"
+
+namespace hovercraft {
+
+/// What acts on one craft: engines (33) to (37), drag, gravity; and how the body answers (24).
+/// Frames: W world, B body (centre of mass, axes of base_link). Constant during a run.
+struct HovercraftModel {
+  Mobility mobility;
+  EngineGeometry engines;
+  Drag drag;
+  Vector3 weight_W = Vector3::Zero();  // m g, N
+  Vector3 wind_W = Vector3::Zero();    // velocity of the air, m/s
+
+  /// dY/dt with the engines at `thrusts` (rear, left, right; N). The wrench is built in B and
+  /// rotated into W, its moment as its force (errata 18).
+  template <class Orientation>
+  StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
+                                          const Vector3& thrusts) const {
+    const Matrix3 R_WB = rotationMatrix(state.orientation);
+    const Vector3 v_WB = mobility.velocity(state.momentum_W);
+    const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
+    const Vector3 u_B = transposeTimes(R_WB, v_WB - wind_W);
+    const Wrench wrench_B = engines.wrenchInBody(thrusts) + drag.wrenchInBody(u_B, w_WB_B);
+    const Wrench wrench_W =
+        mobility.project({times(R_WB, wrench_B.force) + weight_W, times(R_WB, wrench_B.torque)});
+    return {v_WB, orientationRate(times(R_WB, w_WB_B), state.orientation), wrench_W.force,
+            wrench_W.torque};
+  }
+};
+
+/// A craft during one step: the system that a stepper integrates.
+struct DrivenHovercraft {
+  const HovercraftModel& model;
+  const ThrustCourse& thrusts;
+
+  template <class Orientation>
+  StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
+                                          Stage stage) const {
+    return model.derivative(state, thrusts.at(stage));
+  }
+  template <class Orientation>
+  Twist twist(const RigidBodyState<Orientation>& state) const {
+    return model.mobility.twist(state);
+  }
+};
+
+}  // namespace hovercraft

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+#include <yaml-cpp/yaml.h>
+
+#include "hovercraft_sim/math/vector.h"
+
+namespace hovercraft {
+
+/// What a number of a scenario must obey, and the words that say so.
+struct NumberRule {
+  bool (*holds)(double);
+  const char* text;
+};
+extern const NumberRule kAnyNumber;
+extern const NumberRule kPositive;
+extern const NumberRule kNotNegative;
+extern const NumberRule kNotPositive;
+
+/// One map of a YAML tree, with the path by which the user knows it. Every reading function throws
+/// std::invalid_argument with one line: source, key path, value, rule.
+class ConfigReader {
+ public:
+  /// @param source name of the file or parameter that the tree came from.
+  /// @param path key path of `node` within the source; empty at the top.
+  ConfigReader(const YAML::Node& node, std::string source, std::string path = "");
+
+  /// Throws if there is a key that is not listed, or one that stands twice.
+  void allowOnly(std::initializer_list<const char*> keys) const;
+
+  bool has(const char* key) const;
+  /// The map behind `key`.
+  ConfigReader map(const std::string& key) const;
+  /// Every (key, map) pair of this map, in the order of the keys.
+  std::vector<std::pair<std::string, ConfigReader>> maps() const;
+  /// Every map of the list behind `key`; its path says which: key[0], key[1], ...
+  std::vector<ConfigReader> list(const char* key) const;
+
+  double number(const char* key, const NumberRule& rule = kAnyNumber) const;
+  double numberOr(double fallback, const char* key, const NumberRule& rule = kAnyNumber) const;
+  std::int64_t wholeNumberOr(std::int64_t fallback, const char* key) const;
+  /// Three numbers, each of which obeys the rule.
+  Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
+  Vector3 vectorOr(const Vector3& fallback, const char* key,
+                   const NumberRule& rule = kAnyNumber) const;
+  std::string text(const char* key) const;
+  /// The index of the text behind `key` among `choices`.
+  std::size_t choiceOr(std::size_t fallback, const char* key,
+                       const std::vector<std::string>& choices) const;
+
+  /// Throws std::invalid_argument: "source: path.key = value: rule"; the value is left out if there
+  /// is none.
+  [[noreturn]] void fail(const std::string& key, const std::string& rule) const;
+
+  const std::string& source() const { return source_; }
+  const std::string& path() const { return path_; }
+
+ private:
+  YAML::Node required(const std::string& key) const;
+  std::string pathOf(const std::string& key) const;
+  double numberAt(const YAML::Node& node, const std::string& key, const NumberRule& rule) const;
+
+  YAML::Node node_;
+  std::string source_;
+  std::string path_;
+};
+
+}  // namespace hovercraft

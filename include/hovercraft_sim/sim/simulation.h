@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sim/command_log.h"
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft {
+
+/// State of a craft's body in the representation that the scenario chose.
+using BodyState = std::variant<RigidBodyState<Quaternion>, RigidBodyState<Matrix3>>;
+
+/// Everything about one craft that determines its future.
+struct VehicleState {
+  BodyState body;
+  EngineStates engines;
+};
+
+/// Motion of one craft as it is reported; W world, B at the centre of mass.
+struct Motion {
+  Vector3 p_WB;                // m
+  Quaternion q_WB;             // B -> W
+  Twist twist;                 // in W
+  Vector3 momentum_W;          // kg m/s
+  Vector3 angular_momentum_W;  // kg m²/s
+  double energy;  // J: kinetic, and potential in the field of gravity (0 at the origin of W)
+};
+
+/// One engine as it is reported.
+struct EngineReport {
+  double commanded;  // N, as received
+  double applied;    // N, after limits, time-out and lag
+  bool saturated;
+  bool timed_out;
+  double command_age;  // s of simulated time; -1 before the first command
+};
+
+/// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
+/// allocation in step(); the same scenario and the same commands at the same ticks give the same
+/// bits.
+class Simulation {
+ public:
+  explicit Simulation(Scenario scenario);
+
+  /// Queues a command; one whose tick has passed is a mistake of the caller.
+  void push(const Command& command);
+
+  /// Applies the commands that are due and moves every craft from tick n to n + 1.
+  /// @throws std::logic_error if a state is not finite afterwards: the step is too long for the
+  /// forces.
+  void step();
+
+  const Scenario& scenario() const { return scenario_; }
+  Tick tick() const { return tick_; }
+  /// Simulated time at the current tick, ns.
+  std::int64_t timeNs() const { return tick_ * scenario_.step_ns; }
+
+  const VehicleState& state(std::size_t vehicle) const { return states_[vehicle]; }
+  Motion motion(std::size_t vehicle) const;
+  EngineReport engineReport(std::size_t vehicle, int engine) const;
+
+  /// Hash of everything that determines the future of one craft, or of all: FNV-1a, 64 bits,
+  /// defined in ARCHITECTURE.md.
+  std::uint64_t hash(std::size_t vehicle) const;
+  std::uint64_t hash() const;
+
+  /// Called for every command when it takes effect; not set: nothing is called.
+  std::function<void(const Command&)> on_applied;
+
+ private:
+  void applyDueCommands();
+  void stepVehicle(std::size_t vehicle);
+
+  Scenario scenario_;
+  double h_;  // s
+  std::vector<HovercraftModel> models_;
+  std::vector<EngineDynamics> engine_dynamics_;
+  std::vector<VehicleState> states_;
+  CommandLog commands_;
+  Tick tick_ = 0;
+};
+
+}  // namespace hovercraft

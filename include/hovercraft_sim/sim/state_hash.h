@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "hovercraft_sim/sim/simulation.h"
+
+namespace hovercraft {
+
+/// FNV-1a (Fowler, Noll, Vo; 64 bits) over numbers as eight bytes each, lowest byte first, on any
+/// machine. The order of the fields is the contract of ARCHITECTURE.md.
+class StateHash {
+ public:
+  void add(std::uint64_t word) {
+    for (int byte = 0; byte < 8; ++byte) {
+      value_ ^= (word >> (8 * byte)) & 0xffU;
+      value_ *= kPrime;
+    }
+  }
+  void add(std::int64_t number) { add(static_cast<std::uint64_t>(number)); }
+  void add(double number) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &number, sizeof(bits));
+    add(bits);
+  }
+  void add(const Vector3& v) {
+    for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+  void add(const Quaternion& q) {
+    add(q.s);
+    add(q.v);
+  }
+  /// Column by column.
+  void add(const Matrix3& R) {
+    for (int column = 0; column < 3; ++column) add(Vector3(R.col(column)));
+  }
+  /// Position, orientation, momenta; then of each engine: command, thrust, tick of the command.
+  void add(const VehicleState& state) {
+    std::visit([this](const auto& body) { addBody(body); }, state.body);
+    for (const EngineState& engine : state.engines) {
+      add(engine.commanded);
+      add(engine.thrust);
+      add(engine.command_tick);
+    }
+  }
+
+  std::uint64_t value() const { return value_; }
+
+ private:
+  static constexpr std::uint64_t kPrime = 0x100000001b3ULL;
+  static constexpr std::uint64_t kOffsetBasis = 0xcbf29ce484222325ULL;
+
+  template <class Orientation>
+  void addBody(const RigidBodyState<Orientation>& body) {
+    add(body.p_WB);
+    add(body.orientation);
+    add(body.momentum_W);
+    add(body.angular_momentum_W);
+  }
+
+  std::uint64_t value_ = kOffsetBasis;
+};
+
+}  // namespace hovercraft

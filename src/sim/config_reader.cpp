@@ -1,0 +1,196 @@
+#include "hovercraft_sim/sim/config_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <locale>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+namespace hovercraft {
+namespace {
+
+enum class Syntax { kNumber, kNotFinite, kNoNumber };
+
+struct ParsedNumber {
+  Syntax syntax = Syntax::kNoNumber;
+  double value = 0.0;
+};
+
+bool isNotFiniteWord(std::string word) {
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!word.empty() && (word.front() == '+' || word.front() == '-')) word.erase(0, 1);
+  if (!word.empty() && word.front() == '.') word.erase(0, 1);
+  return word == "nan" || word == "inf" || word == "infinity";
+}
+
+/// Decimal text to the nearest double, whatever the locale.
+ParsedNumber parseNumber(const std::string& text) {
+  if (isNotFiniteWord(text)) return {Syntax::kNotFinite, 0.0};
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  ParsedNumber result;
+  stream >> result.value;
+  const bool whole = stream.eof() && !text.empty();
+  if (stream.fail()) {
+    return {whole && std::abs(result.value) > 0.0 ? Syntax::kNotFinite : Syntax::kNoNumber, 0.0};
+  }
+  if (whole) result.syntax = std::isfinite(result.value) ? Syntax::kNumber : Syntax::kNotFinite;
+  return result;
+}
+
+std::string shown(const YAML::Node& node) {
+  if (!node.IsDefined() || node.IsNull()) return "";
+  if (node.IsScalar()) return node.Scalar();
+  YAML::Emitter emitter;
+  emitter.SetSeqFormat(YAML::Flow);
+  emitter.SetMapFormat(YAML::Flow);
+  emitter << node;
+  return emitter.c_str();
+}
+
+}  // namespace
+
+const NumberRule kAnyNumber = {[](double) { return true; }, "must be a finite number"};
+const NumberRule kPositive = {[](double x) { return x > 0.0; }, "must be greater than 0"};
+const NumberRule kNotNegative = {[](double x) { return x >= 0.0; }, "must be 0 or greater"};
+const NumberRule kNotPositive = {[](double x) { return x <= 0.0; }, "must be 0 or less"};
+
+ConfigReader::ConfigReader(const YAML::Node& node, std::string source, std::string path)
+    : node_(node), source_(std::move(source)), path_(std::move(path)) {
+  if (!node_.IsDefined() || node_.IsNull()) fail("", "must be a map of keys; it is empty");
+  if (!node_.IsMap()) fail("", "must be a map of keys");
+}
+
+void ConfigReader::fail(const std::string& key, const std::string& rule) const {
+  const std::string where = pathOf(key);
+  std::string value;
+  if (key.empty()) {
+    value = shown(node_);
+  } else if (node_.IsMap()) {
+    const YAML::Node& tree = node_;
+    value = shown(tree[key]);
+  }
+  throw std::invalid_argument(fmt::format("{}: {}{}{}: {}", source_,
+                                          where.empty() ? "the scenario" : where,
+                                          value.empty() ? "" : " = ", value, rule));
+}
+
+std::string ConfigReader::pathOf(const std::string& key) const {
+  if (path_.empty() || key.empty()) return path_ + key;
+  return path_ + "." + key;
+}
+
+void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
+  std::map<std::string, int> seen;
+  for (const auto& entry : node_) {
+    const std::string key = shown(entry.first);
+    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+      fail(key, fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
+    }
+    if (++seen[key] == 2) fail(key, "the key stands twice");
+  }
+}
+
+bool ConfigReader::has(const char* key) const {
+  const YAML::Node& tree = node_;
+  return tree[key].IsDefined();
+}
+
+YAML::Node ConfigReader::required(const std::string& key) const {
+  const YAML::Node& tree = node_;
+  const YAML::Node found = tree[key];
+  if (!found.IsDefined()) fail(key, "the key is missing");
+  if (found.IsNull()) fail(key, "the value is missing");
+  return found;
+}
+
+ConfigReader ConfigReader::map(const std::string& key) const {
+  return {required(key), source_, pathOf(key)};
+}
+
+std::vector<std::pair<std::string, ConfigReader>> ConfigReader::maps() const {
+  std::map<std::string, ConfigReader> sorted;
+  for (const auto& entry : node_) {
+    const std::string key = shown(entry.first);
+    if (!sorted.emplace(key, ConfigReader(entry.second, source_, pathOf(key))).second) {
+      fail(key, "the name stands twice");
+    }
+  }
+  return {sorted.begin(), sorted.end()};
+}
+
+std::vector<ConfigReader> ConfigReader::list(const char* key) const {
+  const YAML::Node sequence = required(key);
+  if (!sequence.IsSequence() || sequence.size() == 0) fail(key, "must be a list, not empty");
+  std::vector<ConfigReader> readers;
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    readers.emplace_back(sequence[i], source_, fmt::format("{}[{}]", pathOf(key), i));
+  }
+  return readers;
+}
+
+double ConfigReader::numberAt(const YAML::Node& node, const std::string& key,
+                              const NumberRule& rule) const {
+  const ParsedNumber parsed = node.IsScalar() ? parseNumber(node.Scalar()) : ParsedNumber{};
+  if (parsed.syntax == Syntax::kNoNumber) fail(key, "must be a number");
+  if (parsed.syntax == Syntax::kNotFinite) fail(key, "must be finite");
+  if (!rule.holds(parsed.value)) fail(key, rule.text);
+  return parsed.value;
+}
+
+double ConfigReader::number(const char* key, const NumberRule& rule) const {
+  return numberAt(required(key), key, rule);
+}
+
+double ConfigReader::numberOr(double fallback, const char* key, const NumberRule& rule) const {
+  return has(key) ? number(key, rule) : fallback;
+}
+
+std::int64_t ConfigReader::wholeNumberOr(std::int64_t fallback, const char* key) const {
+  if (!has(key)) return fallback;
+  const YAML::Node node = required(key);
+  std::istringstream stream(node.IsScalar() ? node.Scalar() : "");
+  stream.imbue(std::locale::classic());
+  std::int64_t value = 0;
+  stream >> value;
+  if (stream.fail() || !stream.eof()) fail(key, "must be a whole number of at most 64 bits");
+  return value;
+}
+
+Vector3 ConfigReader::vector(const char* key, const NumberRule& rule) const {
+  const YAML::Node sequence = required(key);
+  if (!sequence.IsSequence() || sequence.size() != 3) fail(key, "must be a list of three numbers");
+  Vector3 result;
+  for (int i = 0; i < 3; ++i) {
+    result[i] = numberAt(sequence[static_cast<std::size_t>(i)], key, rule);
+  }
+  return result;
+}
+
+Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,
+                               const NumberRule& rule) const {
+  return has(key) ? vector(key, rule) : fallback;
+}
+
+std::string ConfigReader::text(const char* key) const {
+  const YAML::Node node = required(key);
+  if (!node.IsScalar() || node.Scalar().empty()) fail(key, "must be a text");
+  return node.Scalar();
+}
+
+std::size_t ConfigReader::choiceOr(std::size_t fallback, const char* key,
+                                   const std::vector<std::string>& choices) const {
+  if (!has(key)) return fallback;
+  const std::string chosen = text(key);
+  const auto found = std::find(choices.begin(), choices.end(), chosen);
+  if (found == choices.end()) {
+    fail(key, fmt::format("must be one of: {}", fmt::join(choices, ", ")));
+  }
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+}  // namespace hovercraft

@@ -1,0 +1,27 @@
+#include "hovercraft_sim/sim/scenario_names.h"
+
+#include <algorithm>
+
+namespace hovercraft {
+namespace {
+
+bool isLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+}  // namespace
+
+const std::vector<std::string> kIntegratorNames = {"euler", "semi_implicit_euler", "heun", "rk4"};
+const std::vector<std::string> kOrientationNames = {"quaternion", "matrix"};
+const std::vector<std::string> kModelNames = {"planar", "spatial"};
+
+bool isGraphName(const std::string& name) {
+  return !name.empty() && isLetter(name.front()) &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return isLetter(c) || isDigit(c) || c == '_'; });
+}
+
+}  // namespace hovercraft

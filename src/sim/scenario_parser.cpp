@@ -1,0 +1,254 @@
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <utility>
+
+#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/rotation.h"
+#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/scenario_names.h"
+
+namespace hovercraft {
+namespace {
+
+std::int64_t nanoseconds(const ConfigReader& reader, const char* key, double seconds) {
+  const double exact = seconds * static_cast<double>(kNanosecondsPerSecond);
+  if (!(std::abs(exact) < kMaxNanoseconds)) {
+    reader.fail(key, fmt::format("must be at most {} s", kMaxNanoseconds * 1e-9));
+  }
+  const std::int64_t whole = std::llround(exact);
+  if (std::abs(exact - static_cast<double>(whole)) > kNanosecondSlack * std::abs(exact)) {
+    reader.fail(key, "must be a whole number of nanoseconds");
+  }
+  return whole;
+}
+
+Matrix3 parseInertia(const ConfigReader& vehicle) {
+  const ConfigReader reader = vehicle.map("inertia");
+  reader.allowOnly({"ixx", "iyy", "izz", "ixy", "ixz", "iyz"});
+  Matrix3 inertia;
+  inertia(0, 0) = reader.number("ixx");
+  inertia(1, 1) = reader.number("iyy");
+  inertia(2, 2) = reader.number("izz");
+  inertia(0, 1) = inertia(1, 0) = reader.numberOr(0.0, "ixy");
+  inertia(0, 2) = inertia(2, 0) = reader.numberOr(0.0, "ixz");
+  inertia(1, 2) = inertia(2, 1) = reader.numberOr(0.0, "iyz");
+  return inertia;
+}
+
+std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
+  const std::string file = reader.text("file");
+  const std::string scheme = "package://";
+  if (file.rfind(scheme, 0) == 0) {
+    const std::size_t slash = file.find('/', scheme.size());
+    if (slash == std::string::npos) reader.fail("file", "must be package://PACKAGE/PATH");
+    const std::string package = file.substr(scheme.size(), slash - scheme.size());
+    const std::string folder = source.package_folder ? source.package_folder(package) : "";
+    if (folder.empty()) reader.fail("file", fmt::format("there is no ROS package {}", package));
+    return folder + file.substr(slash);
+  }
+  if (std::filesystem::path(file).is_absolute()) return file;
+  if (source.directory.empty()) {
+    reader.fail("file", "on the parameter server must be a package:// URL or an absolute path");
+  }
+  return (std::filesystem::path(source.directory) / file).lexically_normal().string();
+}
+
+struct ParsedPart {
+  PartScenario part;
+  MassProperties unit;  // of density 1 kg/m³, in the part's own frame
+};
+
+MassProperties meshAtUnitDensity(const ConfigReader& reader, const std::string& path) {
+  try {
+    return meshMassPropertiesOfDensity(loadTriangleMesh(path), 1.0);
+  } catch (const std::invalid_argument& error) {
+    reader.fail("file", error.what());
+  }
+}
+
+ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
+  if (part.has("box")) {
+    const ConfigReader box = part.map("box");
+    box.allowOnly({"size"});
+    const Vector3 size = box.vector("size", kPositive);
+    return {{BoxShape{size}}, boxMassProperties(boxVolume(size), size)};
+  }
+  if (part.has("sphere")) {
+    const ConfigReader sphere = part.map("sphere");
+    sphere.allowOnly({"radius"});
+    const double radius = sphere.number("radius", kPositive);
+    return {{SphereShape{radius}}, sphereMassProperties(sphereVolume(radius), radius)};
+  }
+  if (part.has("mesh")) {
+    const ConfigReader mesh = part.map("mesh");
+    mesh.allowOnly({"file"});
+    const std::string path = meshPath(mesh, source);
+    return {{MeshShape{path}}, meshAtUnitDensity(mesh, path)};
+  }
+  const bool is_cone = part.has("cone");
+  const ConfigReader round = part.map(is_cone ? "cone" : "cylinder");
+  round.allowOnly({"radius", "length"});
+  const double radius = round.number("radius", kPositive);
+  const double length = round.number("length", kPositive);
+  if (is_cone) {
+    return {{ConeShape{radius, length}},
+            coneMassProperties(coneVolume(radius, length), radius, length)};
+  }
+  return {{CylinderShape{radius, length}},
+          cylinderMassProperties(cylinderVolume(radius, length), radius, length)};
+}
+
+/// A part and its mass properties in the hull frame.
+std::pair<PartScenario, MassProperties> parsePart(const ConfigReader& reader,
+                                                  const ScenarioSource& source) {
+  reader.allowOnly(
+      {"box", "cylinder", "cone", "sphere", "mesh", "mass", "density", "position", "rpy"});
+  int shapes = 0;
+  for (const char* key : {"box", "cylinder", "cone", "sphere", "mesh"}) {
+    if (reader.has(key)) ++shapes;
+  }
+  if (shapes != 1) reader.fail("", "must have one of box, cylinder, cone, sphere, mesh");
+  if (reader.has("mass") == reader.has("density")) {
+    reader.fail("", "must have either mass or density");
+  }
+  ParsedPart parsed = parseShape(reader, source);
+  PartScenario& part = parsed.part;
+  part.mass = reader.has("mass") ? reader.number("mass", kPositive)
+                                 : reader.number("density", kPositive) * parsed.unit.mass;
+  part.p_HP = reader.vectorOr(Vector3::Zero(), "position");
+  part.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
+  parsed.unit.I_BBo_B *= part.mass / parsed.unit.mass;
+  parsed.unit.mass = part.mass;
+  return {part, placed(parsed.unit, rotationFromRpy(part.rpy), part.p_HP)};
+}
+
+void parseMass(const ConfigReader& reader, const ScenarioSource& source, VehicleScenario& vehicle) {
+  if (reader.has("parts")) {
+    for (const char* key : {"mass", "inertia", "center_of_mass"}) {
+      if (reader.has(key)) reader.fail(key, "must not stand beside parts, which determine it");
+    }
+    std::vector<MassProperties> placed_parts;
+    for (const ConfigReader& part : reader.list("parts")) {
+      auto [description, properties] = parsePart(part, source);
+      vehicle.parts.push_back(std::move(description));
+      placed_parts.push_back(properties);
+    }
+    vehicle.mass_properties = composed(placed_parts);
+    return;
+  }
+  vehicle.mass_properties.mass = reader.number("mass", kPositive);
+  vehicle.mass_properties.p_HB = reader.vectorOr(Vector3::Zero(), "center_of_mass");
+  vehicle.mass_properties.I_BBo_B = parseInertia(reader);
+  try {
+    checkInertia(vehicle.mass_properties.I_BBo_B, "inertia");
+  } catch (const std::invalid_argument& error) {
+    reader.fail("inertia", error.what());
+  }
+}
+
+EngineParameters parseEngine(const ConfigReader& reader) {
+  reader.allowOnly(
+      {"position", "direction", "min_thrust", "max_thrust", "time_constant", "timeout"});
+  EngineParameters engine;
+  engine.p_HE = reader.vector("position");
+  engine.direction = reader.vector("direction");
+  if (std::abs(norm(engine.direction) - 1.0) > kUnitLength) {
+    reader.fail("direction",
+                fmt::format("must have length 1 (it has {:.6g})", norm(engine.direction)));
+  }
+  engine.min_thrust = reader.number("min_thrust", kNotPositive);
+  engine.max_thrust = reader.number("max_thrust", kNotNegative);
+  engine.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
+  engine.timeout_ns = nanoseconds(reader, "timeout",
+                                  reader.numberOr(kDefaultCommandTimeout, "timeout", kNotNegative));
+  return engine;
+}
+
+void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& vehicle) {
+  reader.allowOnly({"position", "rpy", "velocity", "angular_velocity"});
+  vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position");
+  vehicle.initial_rpy = reader.vectorOr(Vector3::Zero(), "rpy");
+  vehicle.initial_v_WB = reader.vectorOr(Vector3::Zero(), "velocity");
+  vehicle.initial_w_WB = reader.vectorOr(Vector3::Zero(), "angular_velocity");
+  if (model != BodyModel::kPlanar) return;
+  const char* rule = "does not fit model: planar, which moves in x, y and yaw only";
+  if (vehicle.initial_rpy.x() != 0.0 || vehicle.initial_rpy.y() != 0.0) reader.fail("rpy", rule);
+  if (vehicle.initial_v_WB.z() != 0.0) reader.fail("velocity", rule);
+  if (vehicle.initial_w_WB.x() != 0.0 || vehicle.initial_w_WB.y() != 0.0) {
+    reader.fail("angular_velocity", rule);
+  }
+}
+
+VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
+                             const ScenarioSource& source, BodyModel model) {
+  if (!isGraphName(name)) {
+    reader.fail("", "the name of a vehicle is a ROS name: a letter, then letters, digits and _");
+  }
+  reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "initial"});
+  VehicleScenario vehicle;
+  vehicle.name = name;
+  parseMass(reader, source, vehicle);
+  const ConfigReader engines = reader.map("engines");
+  engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
+  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
+    vehicle.engines[i] = parseEngine(engines.map(kEngineNames[i]));
+  }
+  if (reader.has("drag")) {
+    const ConfigReader drag = reader.map("drag");
+    drag.allowOnly({"linear", "quadratic", "angular_linear", "angular_quadratic"});
+    vehicle.drag.linear = drag.vectorOr(Vector3::Zero(), "linear", kNotNegative);
+    vehicle.drag.quadratic = drag.vectorOr(Vector3::Zero(), "quadratic", kNotNegative);
+    vehicle.drag.angular_linear = drag.vectorOr(Vector3::Zero(), "angular_linear", kNotNegative);
+    vehicle.drag.angular_quadratic =
+        drag.vectorOr(Vector3::Zero(), "angular_quadratic", kNotNegative);
+  }
+  if (reader.has("initial")) parseInitial(reader.map("initial"), model, vehicle);
+  return vehicle;
+}
+
+}  // namespace
+
+Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
+  const ConfigReader reader(tree, source.name);
+  reader.allowOnly(
+      {"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed", "vehicles"});
+  Scenario scenario;
+  scenario.step_ns = nanoseconds(reader, "step_size", reader.number("step_size", kPositive));
+  scenario.integrator = static_cast<Integrator>(reader.choiceOr(
+      static_cast<std::size_t>(scenario.integrator), "integrator", kIntegratorNames));
+  scenario.orientation = static_cast<OrientationKind>(reader.choiceOr(
+      static_cast<std::size_t>(scenario.orientation), "orientation", kOrientationNames));
+  scenario.model = static_cast<BodyModel>(
+      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", kModelNames));
+  scenario.gravity = reader.vectorOr(Vector3::Zero(), "gravity");
+  scenario.wind = reader.vectorOr(Vector3::Zero(), "wind");
+  scenario.seed = reader.wholeNumberOr(scenario.seed, "seed");
+  for (const auto& [name, vehicle] : reader.map("vehicles").maps()) {
+    scenario.vehicles.push_back(parseVehicle(name, vehicle, source, scenario.model));
+  }
+  if (scenario.vehicles.empty()) reader.fail("vehicles", "must name at least one vehicle");
+  return scenario;
+}
+
+Scenario loadScenario(const std::string& path,
+                      std::function<std::string(const std::string&)> package_folder) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw std::invalid_argument(path + ": there is no such file");
+  }
+  YAML::Node tree;
+  try {
+    tree = YAML::LoadFile(path);
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(fmt::format("{}: not YAML: {}", path, error.what()));
+  }
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  return parseScenario(tree, {path, folder.string(), std::move(package_folder)});
+}
+
+}  // namespace hovercraft
