@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "hovercraft_sim/math/vector.h"
+
+namespace hovercraft {
+
+/// A surface of triangles. Seen from outside the body, the vertices of each triangle run
+/// counter-clockwise.
+struct TriangleMesh {
+  std::vector<Vector3> vertices;              // m, in the frame of the mesh
+  std::vector<std::array<int, 3>> triangles;  // indices of vertices
+};
+
+/// The closed surface in a mesh file: OBJ or STL, or another format that assimp reads.
+///
+/// All meshes of the file are joined, each with the transforms of its nodes; materials, normals,
+/// points and lines are ignored, polygons are triangulated. Vertices at equal positions become one,
+/// as STL repeats them; triangles of which two vertices coincide are dropped. The indices follow
+/// the first use of each vertex by a triangle, not the order in the file.
+///
+/// Assimp keeps coordinates in single precision: a length of the file is exact to 6e-8 of its
+/// largest coordinate, a volume to some 2e-7.
+/// @returns a mesh that passes checkClosed().
+/// @throws std::invalid_argument naming the file if it is missing, not readable, not a mesh, or not
+/// closed.
+TriangleMesh loadTriangleMesh(const std::string& path);
+
+/// Checks that a mesh bounds a solid: it has triangles, each edge belongs to exactly two of them
+/// that run through it in opposite directions, and the enclosed volume is positive and larger than
+/// what rounding to single precision leaves. Several shells, hollow bodies (an inner shell that
+/// faces inwards) and shells that touch in a vertex pass; that the surface does not cut itself is
+/// not checked.
+/// @param name begins every message, such as "mesh file 'hull.obj'".
+/// @throws std::invalid_argument that says what is wrong and where.
+void checkClosed(const TriangleMesh& mesh, const std::string& name);
+
+}  // namespace hovercraft

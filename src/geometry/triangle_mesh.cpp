@@ -1,0 +1,246 @@
+#include "hovercraft_sim/geometry/triangle_mesh.h"
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/tolerances.h"
+
+namespace hovercraft {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& reason) {
+  throw std::invalid_argument(name + ": " + reason);
+}
+
+std::string coordinates(const Vector3& point) {
+  return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
+}
+
+/// x -> linear x + shift
+struct Affine {
+  Matrix3 linear = Matrix3::Identity();
+  Vector3 shift = Vector3::Zero();
+};
+
+Affine fromAssimp(const aiMatrix4x4& m) {
+  Affine result;
+  result.linear << m.a1, m.a2, m.a3, m.b1, m.b2, m.b3, m.c1, m.c2, m.c3;
+  result.shift << m.a4, m.b4, m.c4;
+  return result;
+}
+
+/// Collects triangles; vertices at equal positions become one.
+class Welder {
+ public:
+  void add(const std::array<Vector3, 3>& corners) {
+    if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
+    std::array<int, 3> triangle{};
+    for (std::size_t i = 0; i < 3; ++i) triangle[i] = indexOf(corners[i]);
+    mesh_.triangles.push_back(triangle);
+  }
+  TriangleMesh release() { return std::move(mesh_); }
+
+ private:
+  int indexOf(const Vector3& position) {
+    const auto [entry, is_new] = indices_.try_emplace({position.x(), position.y(), position.z()},
+                                                      static_cast<int>(mesh_.vertices.size()));
+    if (is_new) mesh_.vertices.push_back(position);
+    return entry->second;
+  }
+
+  TriangleMesh mesh_;
+  std::map<std::array<double, 3>, int> indices_;
+};
+
+void addMesh(const aiMesh& source, const Affine& place, const std::string& name, Welder& welder) {
+  const bool mirrored = determinant(place.linear) < 0.0;
+  for (unsigned f = 0; f < source.mNumFaces; ++f) {
+    const aiFace& face = source.mFaces[f];
+    if (face.mNumIndices != 3) continue;  // a point or a line: polygons are triangles by now
+    std::array<Vector3, 3> corners;
+    for (unsigned i = 0; i < 3; ++i) {
+      const aiVector3D& p = source.mVertices[face.mIndices[i]];
+      corners[i] = times(place.linear, Vector3(p.x, p.y, p.z)) + place.shift;
+      if (!corners[i].allFinite()) refuse(name, "a vertex is not finite");
+    }
+    if (mirrored) std::swap(corners[1], corners[2]);
+    welder.add(corners);
+  }
+}
+
+void addNode(const aiScene& scene, const aiNode& node, const Affine& parent,
+             const std::string& name, Welder& welder) {
+  const Affine local = fromAssimp(node.mTransformation);
+  const Affine place{product(parent.linear, local.linear),
+                     times(parent.linear, local.shift) + parent.shift};
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    addMesh(*scene.mMeshes[node.mMeshes[i]], place, name, welder);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    addNode(scene, *node.mChildren[i], place, name, welder);
+  }
+}
+
+/// One side of a triangle, as an undirected edge with the direction in which the triangle runs.
+struct Side {
+  int low;
+  int high;
+  bool forward;  // from low to high
+
+  friend bool operator<(const Side& a, const Side& b) {
+    return std::array<int, 3>{a.low, a.high, a.forward ? 1 : 0} <
+           std::array<int, 3>{b.low, b.high, b.forward ? 1 : 0};
+  }
+};
+
+std::vector<Side> sortedSides(const TriangleMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int from = triangle[i];
+      const int to = triangle[(i + 1) % 3];
+      demand(from >= 0 && static_cast<std::size_t>(from) < mesh.vertices.size() && from != to,
+             "a triangle has a wrong vertex");
+      sides.push_back({std::min(from, to), std::max(from, to), from < to});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// Edges that break one rule: how many, the first of them, and to how many triangles that belongs.
+struct BadEdges {
+  int count = 0;
+  Side first{};
+  int triangles_at_first = 0;
+
+  void add(const Side& edge, int triangles) {
+    if (count == 0) {
+      first = edge;
+      triangles_at_first = triangles;
+    }
+    ++count;
+  }
+};
+
+struct EdgeReport {
+  BadEdges open;     // of one triangle
+  BadEdges crowded;  // of more than two
+  BadEdges one_way;  // of two that run through it in the same direction
+
+  /// An edge as it comes from the mesh: `forward` of its `triangles` run from low to high.
+  void add(const Side& edge, int triangles, int forward) {
+    if (triangles == 1) {
+      open.add(edge, triangles);
+    } else if (triangles > 2) {
+      crowded.add(edge, triangles);
+    } else if (forward != 1) {
+      one_way.add(edge, triangles);
+    }
+  }
+};
+
+EdgeReport reportOnEdges(const TriangleMesh& mesh) {
+  EdgeReport report;
+  const std::vector<Side> sides = sortedSides(mesh);
+  for (std::size_t begin = 0; begin < sides.size();) {
+    std::size_t end = begin;
+    int forward = 0;
+    while (end < sides.size() && sides[end].low == sides[begin].low &&
+           sides[end].high == sides[begin].high) {
+      forward += sides[end].forward ? 1 : 0;
+      ++end;
+    }
+    report.add(sides[begin], static_cast<int>(end - begin), forward);
+    begin = end;
+  }
+  return report;
+}
+
+std::string describe(const TriangleMesh& mesh, const BadEdges& bad, const char* kind) {
+  return fmt::format("{} {} edge{}, the first from {} to {} m", bad.count, kind,
+                     bad.count == 1 ? "" : "s",
+                     coordinates(mesh.vertices[static_cast<std::size_t>(bad.first.low)]),
+                     coordinates(mesh.vertices[static_cast<std::size_t>(bad.first.high)]));
+}
+
+void checkEdges(const TriangleMesh& mesh, const std::string& name) {
+  const EdgeReport report = reportOnEdges(mesh);
+  if (report.open.count > 0) {
+    refuse(name, "not closed: " + describe(mesh, report.open, "open") +
+                     ": each edge must belong to two triangles");
+  }
+  if (report.crowded.count > 0) {
+    refuse(name, fmt::format("not a simple surface: {}, which belongs to {} triangles: each edge "
+                             "must belong to two",
+                             describe(mesh, report.crowded, "crowded"),
+                             report.crowded.triangles_at_first));
+  }
+  if (report.one_way.count > 0) {
+    refuse(name, "inconsistent orientation: " + describe(mesh, report.one_way, "one-way") +
+                     ": its two triangles must run through it in opposite directions");
+  }
+}
+
+/// The volume that rounding the coordinates to single precision can make or lose: the surface
+/// times the rounding of the largest coordinate, m³.
+double volumeOfRounding(const TriangleMesh& mesh) {
+  double largest = 0.0;
+  for (const Vector3& p : mesh.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  double area = 0.0;
+  for (const auto& triangle : mesh.triangles) {
+    const Vector3& a = mesh.vertices[static_cast<std::size_t>(triangle[0])];
+    const Vector3& b = mesh.vertices[static_cast<std::size_t>(triangle[1])];
+    const Vector3& c = mesh.vertices[static_cast<std::size_t>(triangle[2])];
+    area += 0.5 * norm(cross(b - a, c - a));
+  }
+  return area * largest * kSinglePrecision;
+}
+
+}  // namespace
+
+void checkClosed(const TriangleMesh& mesh, const std::string& name) {
+  if (mesh.triangles.empty()) refuse(name, "no triangles");
+  checkEdges(mesh, name);
+  const double volume = signedVolume(mesh);
+  const double least = volumeOfRounding(mesh);
+  if (volume < -least) {
+    refuse(name, fmt::format("inside out: its volume is {} m^3: seen from outside, the vertices of "
+                             "each face must run counter-clockwise",
+                             volume));
+  }
+  if (!(volume > least)) {
+    refuse(name, fmt::format("no volume: {} m^3, must be larger than {} m^3, what rounding to "
+                             "single precision makes",
+                             volume, least));
+  }
+}
+
+TriangleMesh loadTriangleMesh(const std::string& path) {
+  const std::string name = "mesh file '" + path + "'";
+  if (!std::ifstream(path)) refuse(name, "does not exist or cannot be read");
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
+  if (scene == nullptr || scene->mRootNode == nullptr) {
+    const std::string reason = importer.GetErrorString();
+    refuse(name, "not a mesh that assimp reads: " + reason.substr(0, reason.find('\n')));
+  }
+  Welder welder;
+  addNode(*scene, *scene->mRootNode, Affine{}, name, welder);
+  TriangleMesh mesh = welder.release();
+  checkClosed(mesh, name);
+  return mesh;
+}
+
+}  // namespace hovercraft
