@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Quaternion.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Vector3.h>
+#include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/Engine.h>
+#include <hovercraft_sim/ThrustCommand.h>
+
+#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/math/quaternion.h"
+#include "hovercraft_sim/math/vector.h"
+#include "hovercraft_sim/sim/command_log.h"
+#include "hovercraft_sim/sim/simulation.h"
+
+/// Pure functions between the core's types and ROS messages.
+
+namespace hovercraft_ros {
+
+geometry_msgs::Vector3 toVector3Message(const hovercraft::Vector3& v);
+geometry_msgs::Point toPointMessage(const hovercraft::Vector3& p);
+geometry_msgs::Quaternion toQuaternionMessage(const hovercraft::Quaternion& q);
+hovercraft::Vector3 fromMessage(const geometry_msgs::Vector3& v);
+hovercraft::Vector3 fromMessage(const geometry_msgs::Point& p);
+hovercraft::Quaternion fromMessage(const geometry_msgs::Quaternion& q);
+
+/// Motion of the hull frame H (base_link), which differs from the body frame B by the place of the
+/// centre of mass.
+struct HullMotion {
+  hovercraft::Vector3 p_WH;  // m, in W
+  hovercraft::Quaternion q_WH;
+  hovercraft::Vector3 v_WH_H;  // velocity of base_link's origin, in base_link's axes, m/s
+  hovercraft::Vector3 w_WH_H;  // rad/s, in base_link's axes
+};
+
+/// @param p_HB the centre of mass in H, m.
+HullMotion hullMotion(const hovercraft::Motion& motion, const hovercraft::Vector3& p_HB);
+
+/// The orientation of a frame whose x axis points along `direction` (a unit vector): the shortest
+/// turn from x.
+hovercraft::Quaternion turnFromX(const hovercraft::Vector3& direction);
+
+hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report);
+hovercraft_sim::AppliedCommand toMessage(const hovercraft::Command& command);
+
+/// The command that a message asks for at `tick`; nothing if a thrust is not finite.
+std::optional<hovercraft::Command> toCommand(const hovercraft_sim::ThrustCommand& message,
+                                             std::size_t vehicle, hovercraft::Tick tick);
+std::optional<hovercraft::Command> toCommand(double thrust, hovercraft::EngineId engine,
+                                             std::size_t vehicle, hovercraft::Tick tick);
+/// The command that was recorded, to be applied at its own tick.
+hovercraft::Command toCommand(const hovercraft_sim::AppliedCommand& message, std::size_t vehicle);
+
+}  // namespace hovercraft_ros

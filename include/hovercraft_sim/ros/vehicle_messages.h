@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/EngineStatus.h>
+#include <hovercraft_sim/State.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/time.h>
+
+#include "hovercraft_sim/sim/simulation.h"
+
+namespace hovercraft_ros {
+
+/// Topics of one craft, relative to its namespace.
+constexpr const char* kThrustTopic = "thrust";
+constexpr const char* kPoseTopic = "pose";
+constexpr const char* kTwistTopic = "twist";
+constexpr const char* kOdomTopic = "odom";
+constexpr const char* kEnginesTopic = "engines";
+constexpr const char* kStateTopic = "state";
+constexpr const char* kCommandsTopic = "commands";
+constexpr const char* kDefaultWorldFrame = "world";
+
+/// Simulated time as ROS time: epoch + n·h, from whole nanoseconds.
+ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
+
+/// Every message about one craft at one tick; the node publishes them, a bag writer writes them.
+/// The messages are kept and filled again, so that their strings are made once.
+class VehicleMessages {
+ public:
+  /// @param vehicle index into the scenario's vehicles.
+  VehicleMessages(const hovercraft::Scenario& scenario, std::size_t vehicle,
+                  const std::string& world_frame = kDefaultWorldFrame);
+
+  /// Fills every message from the simulation as it stands.
+  /// @param stamp the time of its tick.
+  void fill(const hovercraft::Simulation& simulation, const ros::Time& stamp);
+
+  /// @param stamp the time of the command's tick.
+  hovercraft_sim::AppliedCommand appliedCommand(const hovercraft::Command& command,
+                                                const ros::Time& stamp) const;
+
+  /// base_link -> engine_rear, engine_left, engine_right; x along the positive thrust.
+  std::vector<geometry_msgs::TransformStamped> engineFrames(const ros::Time& stamp) const;
+
+  const std::string& name() const { return description_.name; }
+  const geometry_msgs::PoseStamped& pose() const { return pose_; }
+  const geometry_msgs::TwistStamped& twist() const { return twist_; }
+  const nav_msgs::Odometry& odom() const { return odom_; }
+  const geometry_msgs::TransformStamped& transform() const { return transform_; }
+  const hovercraft_sim::EngineStatus& engines() const { return engines_; }
+  const hovercraft_sim::State& state() const { return state_; }
+
+ private:
+  hovercraft::VehicleScenario description_;
+  std::size_t vehicle_;
+  geometry_msgs::PoseStamped pose_;
+  geometry_msgs::TwistStamped twist_;
+  nav_msgs::Odometry odom_;
+  geometry_msgs::TransformStamped transform_;
+  hovercraft_sim::EngineStatus engines_;
+  hovercraft_sim::State state_;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,103 @@
+#include "hovercraft_sim/ros/conversions.h"
+
+#include <cmath>
+
+namespace hovercraft_ros {
+
+using hovercraft::Command;
+using hovercraft::Quaternion;
+using hovercraft::Vector3;
+
+geometry_msgs::Vector3 toVector3Message(const Vector3& v) {
+  geometry_msgs::Vector3 message;
+  message.x = v.x();
+  message.y = v.y();
+  message.z = v.z();
+  return message;
+}
+
+geometry_msgs::Point toPointMessage(const Vector3& p) {
+  geometry_msgs::Point message;
+  message.x = p.x();
+  message.y = p.y();
+  message.z = p.z();
+  return message;
+}
+
+geometry_msgs::Quaternion toQuaternionMessage(const Quaternion& q) {
+  geometry_msgs::Quaternion message;
+  message.x = q.v.x();
+  message.y = q.v.y();
+  message.z = q.v.z();
+  message.w = q.s;
+  return message;
+}
+
+Vector3 fromMessage(const geometry_msgs::Vector3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Vector3 fromMessage(const geometry_msgs::Point& p) {
+  return {p.x, p.y, p.z};
+}
+
+Quaternion fromMessage(const geometry_msgs::Quaternion& q) {
+  return {q.w, {q.x, q.y, q.z}};
+}
+
+HullMotion hullMotion(const hovercraft::Motion& motion, const Vector3& p_HB) {
+  const hovercraft::Matrix3 R_WH = hovercraft::rotationMatrix(motion.q_WB);
+  const Vector3 p_WH = motion.p_WB - hovercraft::times(R_WH, p_HB);
+  const Vector3 v_WH = hovercraft::velocityOfPoint(motion.twist, p_WH, motion.p_WB);
+  return {p_WH, motion.q_WB, hovercraft::transposeTimes(R_WH, v_WH),
+          hovercraft::transposeTimes(R_WH, motion.twist.w_WB)};
+}
+
+Quaternion turnFromX(const Vector3& direction) {
+  const Quaternion twice_halfway = {1.0 + direction.x(),
+                                    hovercraft::cross(Vector3::UnitX(), direction)};
+  if (hovercraft::norm(twice_halfway) == 0.0) return {0.0, Vector3::UnitZ()};  // half a turn
+  return hovercraft::normalized(twice_halfway);
+}
+
+hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report) {
+  hovercraft_sim::Engine message;
+  message.commanded = report.commanded;
+  message.applied = report.applied;
+  message.saturated = report.saturated;
+  message.timed_out = report.timed_out;
+  message.age = report.command_age;
+  return message;
+}
+
+hovercraft_sim::AppliedCommand toMessage(const Command& command) {
+  hovercraft_sim::AppliedCommand message;
+  message.tick = static_cast<std::uint64_t>(command.tick);
+  message.engines = command.engines;
+  message.rear = command.thrusts[0];
+  message.left = command.thrusts[1];
+  message.right = command.thrusts[2];
+  return message;
+}
+
+std::optional<Command> toCommand(const hovercraft_sim::ThrustCommand& message, std::size_t vehicle,
+                                 hovercraft::Tick tick) {
+  const Vector3 thrusts(message.rear, message.left, message.right);
+  if (!thrusts.allFinite()) return std::nullopt;
+  return Command{tick, vehicle, hovercraft::kAllEngines, thrusts};
+}
+
+std::optional<Command> toCommand(double thrust, hovercraft::EngineId engine, std::size_t vehicle,
+                                 hovercraft::Tick tick) {
+  if (!std::isfinite(thrust)) return std::nullopt;
+  Command command{tick, vehicle, hovercraft::maskOf(engine), Vector3::Zero()};
+  command.thrusts[static_cast<int>(engine)] = thrust;
+  return command;
+}
+
+Command toCommand(const hovercraft_sim::AppliedCommand& message, std::size_t vehicle) {
+  return {static_cast<hovercraft::Tick>(message.tick), vehicle, message.engines,
+          Vector3(message.rear, message.left, message.right)};
+}
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,85 @@
+#include "hovercraft_sim/ros/vehicle_messages.h"
+
+#include "hovercraft_sim/ros/conversions.h"
+
+namespace hovercraft_ros {
+
+using hovercraft::kEngineNames;
+
+ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns) {
+  ros::Time stamp;
+  stamp.fromNSec(epoch.toNSec() + static_cast<std::uint64_t>(time_ns));
+  return stamp;
+}
+
+VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size_t vehicle,
+                                 const std::string& world_frame)
+    : description_(scenario.vehicles.at(vehicle)), vehicle_(vehicle) {
+  const std::string base_frame = description_.name + "/base_link";
+  pose_.header.frame_id = world_frame;
+  twist_.header.frame_id = base_frame;
+  odom_.header.frame_id = world_frame;
+  odom_.child_frame_id = base_frame;
+  transform_.header.frame_id = world_frame;
+  transform_.child_frame_id = base_frame;
+  engines_.header.frame_id = base_frame;
+  state_.header.frame_id = world_frame;
+}
+
+void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::Time& stamp) {
+  for (std_msgs::Header* header : {&pose_.header, &twist_.header, &odom_.header, &transform_.header,
+                                   &engines_.header, &state_.header}) {
+    header->stamp = stamp;
+  }
+  const hovercraft::Motion motion = simulation.motion(vehicle_);
+  const HullMotion hull = hullMotion(motion, description_.mass_properties.p_HB);
+  pose_.pose.position = toPointMessage(hull.p_WH);
+  pose_.pose.orientation = toQuaternionMessage(hull.q_WH);
+  twist_.twist.linear = toVector3Message(hull.v_WH_H);
+  twist_.twist.angular = toVector3Message(hull.w_WH_H);
+  odom_.pose.pose = pose_.pose;
+  odom_.twist.twist = twist_.twist;
+  transform_.transform.translation = toVector3Message(hull.p_WH);
+  transform_.transform.rotation = pose_.pose.orientation;
+
+  engines_.rear = toMessage(simulation.engineReport(vehicle_, 0));
+  engines_.left = toMessage(simulation.engineReport(vehicle_, 1));
+  engines_.right = toMessage(simulation.engineReport(vehicle_, 2));
+
+  state_.tick = static_cast<std::uint64_t>(simulation.tick());
+  state_.pose.position = toPointMessage(motion.p_WB);
+  state_.pose.orientation = toQuaternionMessage(motion.q_WB);
+  state_.velocity = toVector3Message(motion.twist.v_WB);
+  state_.angular_velocity = toVector3Message(motion.twist.w_WB);
+  state_.momentum = toVector3Message(motion.momentum_W);
+  state_.angular_momentum = toVector3Message(motion.angular_momentum_W);
+  state_.thrust = {engines_.rear.applied, engines_.left.applied, engines_.right.applied};
+  state_.energy = motion.energy;
+  state_.hash = simulation.hash(vehicle_);
+}
+
+hovercraft_sim::AppliedCommand VehicleMessages::appliedCommand(const hovercraft::Command& command,
+                                                               const ros::Time& stamp) const {
+  hovercraft_sim::AppliedCommand message = toMessage(command);
+  message.header.stamp = stamp;
+  message.header.frame_id = engines_.header.frame_id;
+  return message;
+}
+
+std::vector<geometry_msgs::TransformStamped> VehicleMessages::engineFrames(
+    const ros::Time& stamp) const {
+  std::vector<geometry_msgs::TransformStamped> frames;
+  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
+    const hovercraft::EngineParameters& engine = description_.engines[i];
+    geometry_msgs::TransformStamped frame;
+    frame.header.stamp = stamp;
+    frame.header.frame_id = transform_.child_frame_id;
+    frame.child_frame_id = description_.name + "/engine_" + kEngineNames[i];
+    frame.transform.translation = toVector3Message(engine.p_HE);
+    frame.transform.rotation = toQuaternionMessage(turnFromX(engine.direction));
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+}  // namespace hovercraft_ros
