@@ -19,6 +19,10 @@ constexpr double kUnitLength = 1e-6;
 /// round to either side.
 constexpr double kInertiaSlack = 1e-9;
 
+/// Smallest principal moment relative to the largest (-) that is told from 0: an eigenvalue is
+/// exact to a few units in the last place of the largest one.
+constexpr double kSingularInertia = 1e-14;
+
 /// Half a unit in the last place of single precision (-), 2^-24: how exactly assimp keeps a
 /// coordinate of a mesh file.
 constexpr double kSinglePrecision = 5.9604644775390625e-8;
