@@ -39,4 +39,8 @@ constexpr double kNanosecondSlack = 1e-14;
 /// apart.
 constexpr double kMaxNanoseconds = 1e15;
 
+/// Distance (N) from its demand below which a lagging thrust has arrived: without a bound it would
+/// end among the denormal numbers, which processors multiply a hundred times slower.
+constexpr double kSettledThrust = 1e-100;
+
 }  // namespace hovercraft

@@ -1,0 +1,30 @@
+#include "hovercraft_sim/ros/hovercraft_node.h"
+
+#include <exception>
+#include <stdexcept>
+
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/param.h>
+#include <ros/this_node.h>
+
+#include "hovercraft_sim/ros/parameters.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "hovercraft_sim");
+  try {
+    const ros::NodeHandle handle;
+    const ros::NodeHandle private_handle("~");
+    XmlRpc::XmlRpcValue parameters;
+    ros::param::get(private_handle.getNamespace(), parameters);
+    hovercraft_ros::HovercraftNode node(
+        handle, private_handle,
+        hovercraft_ros::parseNodeConfig(hovercraft_ros::toYaml(parameters),
+                                        ros::this_node::getName()));
+    node.run();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}
