@@ -1,11 +1,12 @@
 # shellcheck shell=bash disable=SC2034
 # Shared by the scripts in this folder; sourced, never run. It moves to the root of the checkout, takes an
-# environment in which ROS 1 works, and offers: install PURPOSE..., enter_ros, note, fail.
+# environment in which ROS 1 works, and offers: install_packages PURPOSE..., enter_ros, free_port, note, fail.
 #
 # Packages come from Debian's own archive (11 to 13; Ubuntu from 22.04 on carries the same in universe) or, on
 # Ubuntu 20.04, from the ROS archive (Noetic).
 
 set -euo pipefail
+readonly CALLED_FROM=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # The system's Python first: catkin and the ROS tools find their modules with no other. What a sourced workspace or a
@@ -85,8 +86,8 @@ packages_of_noetic() {
   esac
 }
 
-# install PURPOSE...: installs by apt what these purposes lack; does nothing, and needs no network, if nothing is missing.
-install() {
+# install_packages PURPOSE...: installs by apt what these purposes lack; does nothing, and needs no network, if nothing is missing.
+install_packages() {
   if [[ $(system_family) == unknown ]]; then
     explain_unknown_system "$@"
     return
