@@ -28,7 +28,7 @@ constexpr Color kPathColor = {0.1F, 0.8F, 0.3F, 1.0F};
 constexpr double kLeastEdge = 0.02;         // m: a flat plate is still seen
 constexpr double kEngineDiameter = 0.14;    // m
 constexpr double kEngineLength = 0.08;      // m
-constexpr double kArrowPerMaximum = 0.5;    // m of arrow at full thrust
+constexpr double kArrowPerMaximum = 0.8;    // m of arrow at full thrust
 constexpr double kLeastShownThrust = 0.01;  // of the maximum
 constexpr double kPathWidth = 0.03;         // m
 
@@ -158,7 +158,7 @@ std::vector<Marker> thrustMarkers(const hovercraft::VehicleScenario& craft,
     if (std::abs(share) < kLeastShownThrust) arrow.action = Marker::DELETE;
     arrow.points = {toPointMessage(engine.p_HE),
                     toPointMessage(engine.p_HE + kArrowPerMaximum * share * engine.direction)};
-    setScale(arrow, {0.03, 0.07, 0.08});  // m: shaft, head diameter, head length
+    setScale(arrow, {0.04, 0.09, 0.1});  // m: shaft, head diameter, head length
     markers.push_back(arrow);
   }
   return markers;
