@@ -67,9 +67,9 @@ packages_of_debian() {
     build) echo catkin ros-message-generation libdiagnostic-updater-dev libgeometry-msgs-dev libnav-msgs-dev \
       librosbag-dev libroscpp-dev libros-rosgraph-msgs-dev libstd-msgs-dev libtf2-geometry-msgs-dev libtf2-msgs-dev \
       libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs python3-rosbag python3-roslaunch \
-      rosbash rosout ;;
+      python3-rostopic rosbash rosout ;;
     test)
-      echo librostest-dev python3-rostest python3-rostopic python3-rosnode python3-rosmsg python3-rosservice
+      echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-rosservice
       # The runtime of clang's sanitizers; before, it was part of what clang depends on.
       case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac
       ;;
@@ -80,8 +80,8 @@ packages_of_debian() {
 packages_of_noetic() {
   case "$1" in
     build) printf 'ros-noetic-%s ' catkin diagnostic-updater geometry-msgs message-generation nav-msgs rosbag rosbash \
-      roscpp rosgraph-msgs roslaunch rosout std-msgs tf2-geometry-msgs tf2-msgs tf2-ros visualization-msgs ;;
-    test) printf 'ros-noetic-%s ' rostest rostopic rosnode rosmsg rosservice ;;
+      roscpp rosgraph-msgs roslaunch rosout rostopic std-msgs tf2-geometry-msgs tf2-msgs tf2-ros visualization-msgs ;;
+    test) printf 'ros-noetic-%s ' rostest rosnode rosmsg rosservice ;;
     rviz) printf 'ros-noetic-%s ' rviz ;;
   esac
 }
