@@ -1,55 +1,37 @@
 #include "hovercraft_sim/sim/config_reader.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 #include <fmt/format.h>
 #include <locale>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
+
+#include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
 namespace {
 
-enum class Syntax { kNumber, kNotFinite, kNoNumber };
+constexpr std::size_t kLongestShown = 80;  // bytes of a value in a message
 
-struct ParsedNumber {
-  Syntax syntax = Syntax::kNoNumber;
-  double value = 0.0;
-};
-
-bool isNotFiniteWord(std::string word) {
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (!word.empty() && (word.front() == '+' || word.front() == '-')) word.erase(0, 1);
-  if (!word.empty() && word.front() == '.') word.erase(0, 1);
-  return word == "nan" || word == "inf" || word == "infinity";
-}
-
-/// Decimal text to the nearest double, whatever the locale.
-ParsedNumber parseNumber(const std::string& text) {
-  if (isNotFiniteWord(text)) return {Syntax::kNotFinite, 0.0};
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  ParsedNumber result;
-  stream >> result.value;
-  const bool whole = stream.eof() && !text.empty();
-  if (stream.fail()) {
-    return {whole && std::abs(result.value) > 0.0 ? Syntax::kNotFinite : Syntax::kNoNumber, 0.0};
-  }
-  if (whole) result.syntax = std::isfinite(result.value) ? Syntax::kNumber : Syntax::kNotFinite;
-  return result;
-}
-
+/// A node's text for a message: one line, and not a whole tree.
 std::string shown(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "";
-  if (node.IsScalar()) return node.Scalar();
-  YAML::Emitter emitter;
-  emitter.SetSeqFormat(YAML::Flow);
-  emitter.SetMapFormat(YAML::Flow);
-  emitter << node;
-  return emitter.c_str();
+  std::string text;
+  if (node.IsScalar()) {
+    text = node.Scalar();
+  } else {
+    YAML::Emitter emitter;
+    emitter.SetSeqFormat(YAML::Flow);
+    emitter.SetMapFormat(YAML::Flow);
+    emitter << node;
+    text = emitter.c_str();
+  }
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  if (text.size() > kLongestShown) text.replace(kLongestShown, std::string::npos, "...");
+  return text;
 }
 
 }  // namespace
@@ -136,8 +118,8 @@ std::vector<ConfigReader> ConfigReader::list(const char* key) const {
 double ConfigReader::numberAt(const YAML::Node& node, const std::string& key,
                               const NumberRule& rule) const {
   const ParsedNumber parsed = node.IsScalar() ? parseNumber(node.Scalar()) : ParsedNumber{};
-  if (parsed.syntax == Syntax::kNoNumber) fail(key, "must be a number");
-  if (parsed.syntax == Syntax::kNotFinite) fail(key, "must be finite");
+  if (parsed.syntax == NumberSyntax::kNoNumber) fail(key, "must be a number");
+  if (parsed.syntax == NumberSyntax::kNotFinite) fail(key, "must be finite");
   if (!rule.holds(parsed.value)) fail(key, rule.text);
   return parsed.value;
 }
