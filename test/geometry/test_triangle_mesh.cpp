@@ -7,10 +7,15 @@
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/tolerances.h"
 
-#include "../geometry/sample_meshes.h"
+#include "../support/sample_meshes.h"
 
 namespace hovercraft {
 namespace {
+
+using testing::boxMesh;
+using testing::joined;
+using testing::starMesh;
+using testing::turnedOver;
 
 const Vector3 kOne(1.0, 1.0, 1.0);
 

@@ -8,10 +8,17 @@
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/rotation.h"
 
-#include "../geometry/sample_meshes.h"
+#include "../support/sample_meshes.h"
 
 namespace hovercraft {
 namespace {
+
+using testing::boxMesh;
+using testing::joined;
+using testing::moved;
+using testing::starMesh;
+using testing::tetrahedronMesh;
+using testing::turnedOver;
 
 const Vector3 kOne(1.0, 1.0, 1.0);
 

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
 
-namespace hovercraft {
+namespace hovercraft::testing {
 
 /// The box with the corners `low` and `high`.
 inline TriangleMesh boxMesh(const Vector3& low, const Vector3& high) {
@@ -84,4 +86,4 @@ inline TriangleMesh starMesh(std::mt19937& engine) {
   return mesh;
 }
 
-}  // namespace hovercraft
+}  // namespace hovercraft::testing
