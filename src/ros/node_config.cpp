@@ -32,6 +32,26 @@ hovercraft::Tick publishPeriod(const hovercraft::ConfigReader& reader, double st
   return whole;
 }
 
+const hovercraft::NumberRule kClockRateRule = {
+    [](double rate) { return rate > 0.0 && rate <= NodeConfig::kMaxClockRate; },
+    "must be greater than 0 and at most 250 Hz"};
+
+void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
+  config.lockstep = reader.flagOr(config.lockstep, "lockstep");
+  config.lockstep_timeout =
+      reader.numberOr(config.lockstep_timeout, "lockstep_timeout", hovercraft::kPositive);
+  config.control_period = config.publish_every;
+  if (!reader.has("control_period")) return;
+  const double step_size = config.scenario.stepSize();
+  const double steps = reader.number("control_period", hovercraft::kPositive) / step_size;
+  config.control_period = std::llround(steps);
+  if (config.control_period < 1 ||
+      std::abs(steps - static_cast<double>(config.control_period)) > kRateSlack * steps) {
+    reader.fail("control_period",
+                fmt::format("must be a whole number of steps of {:.9g} s", step_size));
+  }
+}
+
 }  // namespace
 
 NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name) {
@@ -42,7 +62,9 @@ NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node
         "command=\"load\" ns=\"scenario\" file=\"...\"/> inside the <node>, as sim.launch does");
   }
   const hovercraft::ConfigReader reader(parameters, node_name);
-  reader.allowOnly({"scenario", "publish_rate", "world_frame", "diagnostic_period"});
+  reader.allowOnly({"scenario", "publish_rate", "world_frame", "real_time_factor", "paused",
+                    "clock", "clock_rate", "lockstep", "control_period", "lockstep_timeout",
+                    "diagnostic_period"});
   NodeConfig config;
   config.scenario = hovercraft::parseScenario(
       parameters["scenario"], {node_name + "/scenario", "", [](const std::string& package) {
@@ -53,6 +75,12 @@ NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node
   if (config.world_frame.front() == '/') {
     reader.fail("world_frame", "must not begin with a slash (tf2)");
   }
+  config.real_time_factor =
+      reader.numberOr(config.real_time_factor, "real_time_factor", hovercraft::kNotNegative);
+  config.paused = reader.flagOr(config.paused, "paused");
+  config.clock = reader.flagOr(config.clock, "clock");
+  config.clock_rate = reader.numberOr(config.clock_rate, "clock_rate", kClockRateRule);
+  readLockstep(reader, config);
   return config;
 }
 

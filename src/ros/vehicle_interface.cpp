@@ -1,12 +1,12 @@
 #include "hovercraft_sim/ros/vehicle_interface.h"
 
-#include <fmt/format.h>
 #include <utility>
 
 #include <ros/console.h>
 #include <ros/transport_hints.h>
 
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/steady_clock.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -32,22 +32,14 @@ bool exceedsLimits(const hovercraft::Command& command, const hovercraft::Vehicle
 
 }  // namespace
 
-VehicleInterface::VehicleInterface(const ros::NodeHandle& handle,
-                                   const hovercraft::Simulation& simulation, std::size_t vehicle,
-                                   const std::string& world_frame, CommandSink sink)
-    : simulation_(simulation),
+VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun& run,
+                                   std::size_t vehicle, const std::string& world_frame,
+                                   CommandSink sink)
+    : run_(run),
       vehicle_(vehicle),
-      messages_(simulation.scenario(), vehicle, world_frame) {
-  const hovercraft::VehicleScenario& craft = simulation.scenario().vehicles[vehicle];
-  sink_ = [this, &craft, sink = std::move(sink)](const hovercraft::Command& command) {
-    if (exceedsLimits(command, craft)) {
-      ++saturated_commands_;
-      ROS_WARN_THROTTLE(1.0, "%s: a thrust beyond the engine's limits is saturated (%lu so far)",
-                        craft.name.c_str(), static_cast<unsigned long>(saturated_commands_));
-    }
-    sink(command);
-  };
-  ros::NodeHandle own(handle, craft.name);
+      sink_(std::move(sink)),
+      messages_(run.simulation().scenario(), vehicle, world_frame) {
+  ros::NodeHandle own(handle, messages_.name());
   pose_ = own.advertise<geometry_msgs::PoseStamped>(kPoseTopic, kStateQueue);
   twist_ = own.advertise<geometry_msgs::TwistStamped>(kTwistTopic, kStateQueue);
   odom_ = own.advertise<nav_msgs::Odometry>(kOdomTopic, kStateQueue);
@@ -62,10 +54,7 @@ void VehicleInterface::subscribe(ros::NodeHandle& handle) {
   const std::string all = handle.resolveName(kThrustTopic);
   const boost::function<void(const hovercraft_sim::ThrustCommand&)> on_thrust =
       [this, all](const hovercraft_sim::ThrustCommand& message) {
-        const auto command = toCommand(message, vehicle_, simulation_.tick());
-        if (command) return sink_(*command);
-        drop(all,
-             fmt::format("rear {}, left {}, right {}", message.rear, message.left, message.right));
+        take(toCommand(message, vehicle_, run_.simulation().tick()), all, message.header.stamp);
       };
   subscribers_.push_back(handle.subscribe<hovercraft_sim::ThrustCommand>(
       kThrustTopic, kThrustQueue, on_thrust, ros::VoidConstPtr(), hints));
@@ -76,23 +65,36 @@ void VehicleInterface::subscribe(ros::NodeHandle& handle) {
     const std::string topic = handle.resolveName(relative);
     const boost::function<void(const std_msgs::Float64&)> on_engine =
         [this, engine, topic](const std_msgs::Float64& message) {
-          const auto command = toCommand(message.data, engine, vehicle_, simulation_.tick());
-          if (command) return sink_(*command);
-          drop(topic, fmt::format("{}", message.data));
+          take(toCommand(message.data, engine, vehicle_, run_.simulation().tick()), topic,
+               std::nullopt);
         };
     subscribers_.push_back(handle.subscribe<std_msgs::Float64>(relative, kThrustQueue, on_engine,
                                                                ros::VoidConstPtr(), hints));
   }
 }
 
-void VehicleInterface::drop(const std::string& topic, const std::string& what) {
-  ++dropped_commands_;
-  ROS_WARN_THROTTLE(1.0, "%s: dropped a command that is not finite: %s (%lu so far)", topic.c_str(),
-                    what.c_str(), static_cast<unsigned long>(dropped_commands_));
+void VehicleInterface::take(const std::optional<hovercraft::Command>& command,
+                            const std::string& topic, const std::optional<ros::Time>& stamp) {
+  const char* refusal = command ? sink_(*command, stamp) : "a thrust must be finite";
+  if (refusal != nullptr) {
+    ++dropped_commands_;
+    if (drop_warnings_.isDue(steadyNow())) {
+      ROS_WARN("%s: dropped a command: %s (%lu dropped so far)", topic.c_str(), refusal,
+               static_cast<unsigned long>(dropped_commands_));
+    }
+    return;
+  }
+  const auto& craft = run_.simulation().scenario().vehicles[vehicle_];
+  if (!exceedsLimits(*command, craft)) return;
+  ++saturated_commands_;
+  if (saturation_warnings_.isDue(steadyNow())) {
+    ROS_WARN("%s: a thrust beyond the engine's limits is saturated (%lu so far)", topic.c_str(),
+             static_cast<unsigned long>(saturated_commands_));
+  }
 }
 
-void VehicleInterface::publish(const ros::Time& stamp) {
-  messages_.fill(simulation_, stamp);
+void VehicleInterface::publish() {
+  messages_.fill(run_.simulation(), run_.stamp(), run_.episode());
   pose_.publish(messages_.pose());
   twist_.publish(messages_.twist());
   odom_.publish(messages_.odom());
@@ -100,8 +102,8 @@ void VehicleInterface::publish(const ros::Time& stamp) {
   state_.publish(messages_.state());
 }
 
-void VehicleInterface::publishApplied(const hovercraft::Command& command, const ros::Time& stamp) {
-  commands_.publish(messages_.appliedCommand(command, stamp));
+void VehicleInterface::publishApplied(const hovercraft::Command& command) {
+  commands_.publish(messages_.appliedCommand(command, run_.stamp(), run_.episode()));
 }
 
 }  // namespace hovercraft_ros

@@ -158,6 +158,14 @@ Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,
   return has(key) ? vector(key, rule) : fallback;
 }
 
+bool ConfigReader::flagOr(bool fallback, const char* key) const {
+  if (!has(key)) return fallback;
+  const YAML::Node node = required(key);
+  const std::string value = node.IsScalar() ? node.Scalar() : "";
+  if (value != "true" && value != "false") fail(key, "must be true or false");
+  return value == "true";
+}
+
 std::string ConfigReader::text(const char* key) const {
   const YAML::Node node = required(key);
   if (!node.IsScalar() || node.Scalar().empty()) fail(key, "must be a text");

@@ -165,11 +165,11 @@ void saveSnapshot(const Simulation& simulation, const std::string& path) {
   }
 }
 
-SimulationState loadSnapshot(const std::string& path, const Scenario& scenario) {
+std::string readSnapshotText(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream) throw std::invalid_argument(path + ": cannot be read");
-  return parseSnapshot(text, path, scenario);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
+  return text;
 }
 
 }  // namespace hovercraft

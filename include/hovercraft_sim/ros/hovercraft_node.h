@@ -3,25 +3,31 @@
 #include <cstdint>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include <hovercraft_sim/RunEvent.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/time.h>
 #include <ros/wall_timer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "hovercraft_sim/ros/duration_histogram.h"
+#include "hovercraft_sim/ros/clock_source.h"
+#include "hovercraft_sim/ros/live_run.h"
+#include "hovercraft_sim/ros/lockstep.h"
 #include "hovercraft_sim/ros/node_config.h"
+#include "hovercraft_sim/ros/pace_report.h"
 #include "hovercraft_sim/ros/pacer.h"
 #include "hovercraft_sim/ros/vehicle_interface.h"
-#include "hovercraft_sim/sim/simulation.h"
+#include "hovercraft_sim/ros/warning_limiter.h"
 
 namespace hovercraft_ros {
 
 /// The simulation behind ROS topics. One thread, the caller of run(), handles callbacks and steps
-/// the world; between steps it waits on the callback queue, so that a message is handled at once.
+/// the world; between steps it waits on the callback queue, so that a message or a service is
+/// handled at once, also while the simulation is paused.
 class HovercraftNode {
  public:
   /// @param handle of the namespace that the craft's namespaces lie in. @param private_handle the
@@ -31,40 +37,57 @@ class HovercraftNode {
   HovercraftNode(const HovercraftNode&) = delete;
   HovercraftNode& operator=(const HovercraftNode&) = delete;
 
-  /// Steps at the pace of a steady clock until ROS is shut down.
+  /// Steps at the wanted pace until ROS is shut down.
   void run();
+
+  // Control, from callbacks of run()'s thread.
+  void pause() { paused_ = true; }
+  void resume();
+  bool isPaused() const { return paused_; }
+  const NodeConfig& config() const { return config_; }
+  const LiveRun& liveRun() const { return run_; }
+  /// @param real_time_factor 0 or greater; 0: as fast as it can.
+  void setRealTimeFactor(double real_time_factor);
+  /// Steps now, whatever the pace.
+  void stepPaused(std::uint32_t steps);
+  /// Applies and publishes an event. @throws std::invalid_argument as applyEvent(); nothing has
+  /// changed then.
+  void apply(const hovercraft_sim::RunEvent& event);
 
  private:
   void publishConstants();
+  void restartPace();
+  bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
+  std::int64_t waitNs(std::int64_t now_ns) const;
   void advance();
-  void stepOnce(std::int64_t lateness_ns);
+  bool isStepDue(std::int64_t now_ns) const;
+  void stepOnce();
   void publishState();
-  void reportPace(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void noticeSilence(std::int64_t now_ns);
+  void report();
   void reportCommands(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t vehicle);
 
-  ros::Time stamp() const { return stampOf(epoch_, simulation_.timeNs()); }
-
   NodeConfig config_;
-  hovercraft::Simulation simulation_;
-  Pacer pacer_;
-  ros::Time epoch_;  // of tick 0
+  LiveRun run_;
+  Lockstep lockstep_;
+  std::optional<Pacer> pacer_;  // none: as fast as it can
+  std::optional<ClockSource> clock_;
+  bool paused_;
   std::vector<std::unique_ptr<VehicleInterface>> vehicles_;
-  ros::Publisher scenario_publisher_;
+  ros::Publisher scenario_, events_, telemetry_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   std::vector<geometry_msgs::TransformStamped> transform_batch_;
 
-  // Since the last diagnostic report.
-  DurationHistogram step_times_;
-  DurationHistogram lateness_;
-  std::uint64_t late_steps_ = 0;
-  std::int64_t given_up_ns_ = 0;
-  std::int64_t report_wall_ns_ = 0;
-  hovercraft::Tick report_tick_ = 0;
+  PaceReport pace_;
+  hovercraft_sim::Telemetry telemetry_message_;
+  std::int64_t waiting_since_ns_ = 0;  // for the commands of a lockstep period
+  WarningLimiter behind_warnings_;
+  WarningLimiter silence_warnings_;
   std::vector<std::uint64_t> reported_drops_;
   std::vector<std::uint64_t> reported_saturations_;
   diagnostic_updater::Updater diagnostics_;
-  ros::WallTimer diagnostics_timer_;
+  ros::WallTimer report_timer_;
 };
 
 }  // namespace hovercraft_ros

@@ -47,6 +47,7 @@ class ConfigReader {
   Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
   Vector3 vectorOr(const Vector3& fallback, const char* key,
                    const NumberRule& rule = kAnyNumber) const;
+  bool flagOr(bool fallback, const char* key) const;
   std::string text(const char* key) const;
   /// The index of the text behind `key` among `choices`.
   std::size_t choiceOr(std::size_t fallback, const char* key,

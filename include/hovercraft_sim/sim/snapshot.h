@@ -22,7 +22,8 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
 /// The same through a file; an existing one is replaced only when the new one is whole.
 /// @throws std::invalid_argument if it cannot be written.
 void saveSnapshot(const Simulation& simulation, const std::string& path);
-/// @throws std::invalid_argument if it cannot be read, or as parseSnapshot().
-SimulationState loadSnapshot(const std::string& path, const Scenario& scenario);
+/// The text of a snapshot's file, for parseSnapshot(). @throws std::invalid_argument if it cannot
+/// be read.
+std::string readSnapshotText(const std::string& path);
 
 }  // namespace hovercraft
