@@ -23,7 +23,7 @@ constexpr double kLargeComponent = 0.57;
 void requirePositive(double value, const char* name, const char* unit) {
   if (value > 0.0 && std::isfinite(value)) return;
   throw std::invalid_argument(
-      fmt::format("{} = {} {}: must be positive and finite", name, value, unit));
+      fmt::format("{} = {:.12g} {}: must be positive and finite", name, value, unit));
 }
 
 Matrix3 diagonal(double xx, double yy, double zz) {
@@ -52,7 +52,7 @@ Matrix3 inertiaOfPoint(double mass, const Vector3& d) {
 }
 
 std::string entryOf(const Matrix3& I_BBo_B, int row, int column) {
-  return fmt::format("i{}{} = {} kg m^2", kAxisNames[row], kAxisNames[column],
+  return fmt::format("i{}{} = {:.12g} kg m^2", kAxisNames[row], kAxisNames[column],
                      I_BBo_B(row, column));
 }
 
@@ -182,16 +182,16 @@ void checkInertia(const Matrix3& I_BBo_B, const std::string& name) {
   requireSymmetric(I_BBo_B, name);
   const Vector3 moments = principalInertia(I_BBo_B).moments;
   if (!(moments(0) > kSingularInertia * moments(2))) {
-    throw std::invalid_argument(
-        fmt::format("{}: must be positive definite: its smallest principal moment is {} kg m^2",
-                    name, moments(0)));
+    throw std::invalid_argument(fmt::format(
+        "{}: must be positive definite: its smallest principal moment is {:.12g} kg m^2", name,
+        moments(0)));
   }
   const double others = moments(0) + moments(1);
   if (moments(2) - others > kInertiaSlack * moments(2)) {
-    throw std::invalid_argument(
-        fmt::format("{}: its largest principal moment is {} kg m^2: must be at most {} kg m^2, the "
-                    "sum of the other two",
-                    name, moments(2), others));
+    throw std::invalid_argument(fmt::format(
+        "{}: its largest principal moment is {:.12g} kg m^2: must be at most {:.12g} kg m^2, the "
+        "sum of the other two",
+        name, moments(2), others));
   }
 }
 

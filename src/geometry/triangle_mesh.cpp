@@ -24,7 +24,7 @@ namespace {
 }
 
 std::string coordinates(const Vector3& point) {
-  return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
+  return fmt::format("({:.12g}, {:.12g}, {:.12g})", point.x(), point.y(), point.z());
 }
 
 /// x -> linear x + shift
@@ -238,16 +238,18 @@ Solid measure(const TriangleMesh& mesh) {
 
 void checkVolume(const Solid& solid, const std::string& name) {
   if (solid.volume < -solid.uncertainty) {
-    refuse(name, fmt::format("inside out: its volume is {} m^3: seen from outside, the vertices of "
-                             "each face must run counter-clockwise",
-                             solid.volume));
+    refuse(name,
+           fmt::format("inside out: its volume is {:.12g} m^3: seen from outside, the vertices of "
+                       "each face must run counter-clockwise",
+                       solid.volume));
   }
   if (!(solid.uncertainty <= kMeshVolume * solid.volume)) {
-    refuse(name,
-           fmt::format("volume = {} m^3 with an uncertainty of {} m^3, as coordinates of {} m "
-                       "are rounded to {:g} of themselves: must be known to {:g} %",
-                       solid.volume, solid.uncertainty, solid.largest, kMeshCoordinate,
-                       100.0 * kMeshVolume));
+    refuse(
+        name,
+        fmt::format(
+            "volume = {:.12g} m^3 with an uncertainty of {:.12g} m^3, as coordinates of {:.12g} m "
+            "are rounded to {:g} of themselves: must be known to {:g} %",
+            solid.volume, solid.uncertainty, solid.largest, kMeshCoordinate, 100.0 * kMeshVolume));
   }
 }
 
@@ -273,10 +275,11 @@ void checkShells(const TriangleMesh& mesh, const std::string& name) {
     const bool is_inside = winding > 0.5;
     if (is_inside == (solids[i].volume < 0.0)) continue;
     refuse(name,
-           fmt::format("the shell with the vertex {} m has the volume {} m^3 and lies {}: a shell "
-                       "must face outwards, the wall of a cavity inwards",
-                       coordinates(shells[i].vertices.front()), solids[i].volume,
-                       is_inside ? "inside another" : "in no other"));
+           fmt::format(
+               "the shell with the vertex {} m has the volume {:.12g} m^3 and lies {}: a shell "
+               "must face outwards, the wall of a cavity inwards",
+               coordinates(shells[i].vertices.front()), solids[i].volume,
+               is_inside ? "inside another" : "in no other"));
   }
 }
 

@@ -16,8 +16,9 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "hovercraft_sim");
+  // The last handle takes the console with it: this one is there until an error has been reported.
+  const ros::NodeHandle handle;
   try {
-    const ros::NodeHandle handle;
     const ros::NodeHandle private_handle("~");
     XmlRpc::XmlRpcValue parameters;
     ros::param::get(private_handle.getNamespace(), parameters);

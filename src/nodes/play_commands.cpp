@@ -42,8 +42,9 @@ hovercraft::Scenario receiveScenario(const ros::NodeHandle& handle) {
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "play_commands");
+  // The last handle takes the console with it: this one is there until an error has been reported.
+  const ros::NodeHandle handle;
   try {
-    const ros::NodeHandle handle;
     const ros::NodeHandle own("~");
     std::string path;
     if (!own.getParam("file", path)) {

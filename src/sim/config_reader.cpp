@@ -15,22 +15,31 @@ namespace {
 
 constexpr std::size_t kLongestShown = 80;  // bytes of a value in a message
 
-/// A node's text for a message: one line, and not a whole tree.
-std::string shown(const YAML::Node& node) {
+std::string textOf(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "";
-  std::string text;
-  if (node.IsScalar()) {
-    text = node.Scalar();
-  } else {
-    YAML::Emitter emitter;
-    emitter.SetSeqFormat(YAML::Flow);
-    emitter.SetMapFormat(YAML::Flow);
-    emitter << node;
-    text = emitter.c_str();
-  }
+  if (node.IsScalar()) return node.Scalar();
+  YAML::Emitter emitter;
+  emitter.SetSeqFormat(YAML::Flow);
+  emitter.SetMapFormat(YAML::Flow);
+  emitter << node;
+  return emitter.c_str();
+}
+
+/// What a message shows of a value: not a whole tree.
+std::string shown(const YAML::Node& node) {
+  const std::string text = textOf(node);
+  if (text.size() <= kLongestShown) return text;
+  const auto continues_character = [](char c) {  // of UTF-8
+    return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U;
+  };
+  std::size_t end = kLongestShown;
+  while (end > 0 && continues_character(text[end])) --end;
+  return text.substr(0, end) + "...";
+}
+
+std::string onOneLine(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  if (text.size() > kLongestShown) text.replace(kLongestShown, std::string::npos, "...");
   return text;
 }
 
@@ -47,8 +56,8 @@ ConfigReader::ConfigReader(const YAML::Node& node, std::string source, std::stri
   if (!node_.IsMap()) fail("", "must be a map of keys");
 }
 
-void ConfigReader::fail(const std::string& key, const std::string& rule) const {
-  const std::string where = pathOf(key);
+std::string ConfigReader::where(const std::string& key) const {
+  const std::string path = pathOf(key);
   std::string value;
   if (key.empty()) {
     value = shown(node_);
@@ -56,9 +65,12 @@ void ConfigReader::fail(const std::string& key, const std::string& rule) const {
     const YAML::Node& tree = node_;
     value = shown(tree[key]);
   }
-  throw std::invalid_argument(fmt::format("{}: {}{}{}: {}", source_,
-                                          where.empty() ? "the scenario" : where,
-                                          value.empty() ? "" : " = ", value, rule));
+  return onOneLine(fmt::format("{}: {}{}{}", source_, path.empty() ? "the scenario" : path,
+                               value.empty() ? "" : " = ", value));
+}
+
+void ConfigReader::fail(const std::string& key, const std::string& rule) const {
+  throw std::invalid_argument(fmt::format("{}: {}", where(key), rule));
 }
 
 std::string ConfigReader::pathOf(const std::string& key) const {
@@ -69,7 +81,7 @@ std::string ConfigReader::pathOf(const std::string& key) const {
 void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
   std::map<std::string, int> seen;
   for (const auto& entry : node_) {
-    const std::string key = shown(entry.first);
+    const std::string key = textOf(entry.first);
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       fail(key, fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
     }
@@ -97,7 +109,7 @@ ConfigReader ConfigReader::map(const std::string& key) const {
 std::vector<std::pair<std::string, ConfigReader>> ConfigReader::maps() const {
   std::map<std::string, ConfigReader> sorted;
   for (const auto& entry : node_) {
-    const std::string key = shown(entry.first);
+    const std::string key = textOf(entry.first);
     if (!sorted.emplace(key, ConfigReader(entry.second, source_, pathOf(key))).second) {
       fail(key, "the name stands twice");
     }

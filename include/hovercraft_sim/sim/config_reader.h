@@ -53,8 +53,10 @@ class ConfigReader {
   std::size_t choiceOr(std::size_t fallback, const char* key,
                        const std::vector<std::string>& choices) const;
 
-  /// Throws std::invalid_argument: "source: path.key = value: rule"; the value is left out if there
-  /// is none.
+  /// "source: path.key = value", the beginning of a message; the value is left out if there is
+  /// none, and shortened if it is long.
+  std::string where(const std::string& key) const;
+  /// Throws std::invalid_argument: "source: path.key = value: rule".
   [[noreturn]] void fail(const std::string& key, const std::string& rule) const;
 
   const std::string& source() const { return source_; }
