@@ -50,6 +50,11 @@ Matrix3 randomRotation(std::mt19937& engine) {
   return rotationFromRpy(randomVector(engine, 3.0));
 }
 
+MassProperties randomlyPlaced(std::mt19937& engine, const MassProperties& part, double distance) {
+  const Matrix3 R = randomRotation(engine);
+  return placed(part, R, randomVector(engine, distance));
+}
+
 std::string messageOf(const std::function<void()>& action) {
   try {
     action();
@@ -215,8 +220,7 @@ TEST(MassProperties, PlacingThereAndBackChangesNothing) {
 
 TEST(MassProperties, ASinglePartComesBackToTheLastBit) {
   std::mt19937 engine(3);
-  const MassProperties part = placed(boxMassProperties(0.1, {0.3, 0.7, 1.1}),
-                                     randomRotation(engine), randomVector(engine, 1e6));
+  const MassProperties part = randomlyPlaced(engine, boxMassProperties(0.1, {0.3, 0.7, 1.1}), 1e6);
   const MassProperties whole = composed({part});
   EXPECT_EQ(whole.mass, part.mass);
   EXPECT_EQ(whole.p_HB, part.p_HB);
@@ -237,12 +241,13 @@ TEST(MassProperties, PartsAddUpByTheParallelAxisTheorem) {
 
 TEST(MassProperties, CompositionDoesNotDependOnOrderOrGrouping) {
   std::mt19937 engine(4);
-  std::vector<MassProperties> parts;
-  for (int n = 0; n < 3; ++n) {
-    parts.push_back(placed(boxMassProperties(1.0 + n, {1.0, 2.0, 0.5}), randomRotation(engine),
-                           randomVector(engine, 3.0)));
+  std::array<MassProperties, 3> parts;
+  double mass = 0.0;
+  for (MassProperties& part : parts) {
+    mass += 1.0;
+    part = randomlyPlaced(engine, boxMassProperties(mass, {1.0, 2.0, 0.5}), 3.0);
   }
-  const MassProperties whole = composed(parts);
+  const MassProperties whole = composed({parts[0], parts[1], parts[2]});
   EXPECT_LT(difference(composed({parts[2], parts[0], parts[1]}), whole), 1e-15);
   EXPECT_LT(difference(composed({composed({parts[0], parts[1]}), parts[2]}), whole), 1e-15);
 }

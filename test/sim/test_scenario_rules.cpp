@@ -12,6 +12,8 @@
 namespace hovercraft {
 namespace {
 
+using testing::kMassByNumbers;
+
 struct BrokenRule {
   const char* name;
   const char* old_part;
@@ -209,9 +211,6 @@ const std::vector<BrokenRule> kBrokenInertias = {
 INSTANTIATE_TEST_SUITE_P(Inertias, BrokenScenario, ::testing::ValuesIn(kBrokenInertias), nameOf);
 
 // ---- parts --------------------------------------------------------------------------------------
-constexpr const char* kMassByNumbers =
-    "    mass: 5.5\n    center_of_mass: [0.01, 0.02, 0.03]\n    inertia: {ixx: 0.1, iyy: 0.2, izz: "
-    "0.25, ixy: 0.01, ixz: -0.02, iyz: 0.03}\n";
 const std::vector<BrokenRule> kBrokenParts = {
     {"PartsBesideMass", "    mass: 5.5\n",
      "    mass: 5.5\n    parts: [{sphere: {radius: 0.1}, mass: 1}]\n",

@@ -41,6 +41,21 @@ inline std::string with(std::string text, const std::string& old_part,
   return text.replace(place, old_part.size(), new_part);
 }
 
+/// The lines of validScenario() that parts stand for.
+constexpr const char* kMassByNumbers =
+    "    mass: 5.5\n    center_of_mass: [0.01, 0.02, 0.03]\n    inertia: {ixx: 0.1, iyy: 0.2, izz: "
+    "0.25, ixy: 0.01, ixz: -0.02, iyz: 0.03}\n";
+
+/// One of each solid, by mass and by density, turned and moved.
+inline std::string scenarioOfParts() {
+  return with(validScenario(), kMassByNumbers, R"(    parts:
+      - {box: {size: [0.6, 0.4, 0.1]}, density: 31.7}
+      - {cylinder: {radius: 0.05, length: 0.2}, mass: 0.3, position: [-0.25, 0, 0.1], rpy: [0, 1.5707963267948966, 0]}
+      - {cone: {radius: 0.07, length: 0.3}, mass: 0.15, position: [0.3, 0, 0.05], rpy: [0.1, 1.1, -0.4]}
+      - {sphere: {radius: 0.033}, density: 7850, position: [0.01, 0.07, 0]}
+)");
+}
+
 inline Scenario parsed(const std::string& text) {
   ScenarioSource source;
   source.name = "test.yaml";
