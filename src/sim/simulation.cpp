@@ -181,7 +181,6 @@ EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {
 std::uint64_t Simulation::hash(std::size_t vehicle) const {
   StateHash hash;
   hash.add(state_.tick);
-  hash.add(state_.seed);
   hash.add(state_.vehicles[vehicle]);
   for (const ExternalWrench& wrench : state_.wrenches) {
     if (wrench.vehicle == vehicle) hash.add(wrench);
@@ -192,7 +191,6 @@ std::uint64_t Simulation::hash(std::size_t vehicle) const {
 std::uint64_t Simulation::hash() const {
   StateHash hash;
   hash.add(state_.tick);
-  hash.add(state_.seed);
   for (const VehicleState& state : state_.vehicles) hash.add(state);
   for (const ExternalWrench& wrench : state_.wrenches) hash.add(wrench);
   return hash.value();
