@@ -205,8 +205,11 @@ void appendNumber(fmt::memory_buffer& buffer, double number) {
 }
 
 void appendSeconds(fmt::memory_buffer& buffer, std::int64_t time_ns) {
-  const std::int64_t fraction = time_ns % kNanosecondsPerSecond;
-  fmt::format_to(std::back_inserter(buffer), "{}", time_ns / kNanosecondsPerSecond);
+  if (time_ns < 0) buffer.push_back('-');
+  const std::int64_t magnitude = std::abs(time_ns);
+  const fmt::format_int whole(magnitude / kNanosecondsPerSecond);
+  buffer.append(whole.data(), whole.data() + whole.size());
+  const std::int64_t fraction = magnitude % kNanosecondsPerSecond;
   if (fraction == 0) return;
   fmt::format_to(std::back_inserter(buffer), ".{:09}", fraction);
   while (buffer[buffer.size() - 1] == '0') buffer.resize(buffer.size() - 1);

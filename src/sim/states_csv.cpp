@@ -74,8 +74,10 @@ Trajectory& trajectoryOf(std::vector<Trajectory>& trajectories, const std::strin
       std::find_if(trajectories.begin(), trajectories.end(),
                    [&](const Trajectory& trajectory) { return trajectory.vehicle == vehicle; });
   if (found != trajectories.end()) return *found;
-  trajectories.push_back({vehicle, path + ": centre of mass", {}});
-  return trajectories.back();
+  Trajectory& added = trajectories.emplace_back();
+  added.vehicle = vehicle;
+  added.source = path + ": centre of mass";
+  return added;
 }
 
 }  // namespace

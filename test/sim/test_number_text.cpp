@@ -136,7 +136,7 @@ TEST(ParseNumber, DoesNotDependOnTheLocale) {
   EXPECT_EQ(parseNumber("1.5").value, 1.5);
   EXPECT_EQ(parseNumber("1,5").syntax, NumberSyntax::kNoNumber);
   EXPECT_EQ(textOf(1.5), "1.5");
-  EXPECT_EQ(textOf(1.5e30), "1.5e+30");
+  EXPECT_EQ(textOf(std::ldexp(1.0, 100)), "1.2676506002282294e+30");
 }
 
 TEST(ParseNanoseconds, IsExactWhereAProductOfDoublesIsNot) {

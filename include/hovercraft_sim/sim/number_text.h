@@ -31,7 +31,6 @@ std::int64_t parseNanoseconds(const std::string& text);
 void appendNumber(fmt::memory_buffer& buffer, double number);
 
 /// Appends whole nanoseconds as seconds, exactly and without trailing zeros: 1500000000 is 1.5.
-/// @param time_ns 0 or greater.
 void appendSeconds(fmt::memory_buffer& buffer, std::int64_t time_ns);
 std::string secondsText(std::int64_t time_ns);
 

@@ -20,8 +20,10 @@ struct TrajectorySample {
 
 /// The way of one craft. Times increase from sample to sample.
 struct Trajectory {
-  std::string vehicle;  // empty where the source holds one craft and does not name it
-  std::string source;   // for people: which file, which topic, which point of the craft
+  std::string vehicle;          // empty where the source holds one craft and does not name it
+  std::string source;           // for people: which file, which topic, which point of the craft
+  bool has_velocities = true;   // else v_WB and w_WB mean nothing
+  bool holds_time_zero = true;  // false for a bag: ROS takes time 0 for no time
   std::vector<TrajectorySample> samples;
 };
 
