@@ -64,9 +64,12 @@ packages_for() {
 # ros-std-msgs and its like hold the .msg files, the lib*-dev packages the generated headers.
 packages_of_debian() {
   case "$1" in
-    build) echo catkin ros-message-generation libdiagnostic-updater-dev libgeometry-msgs-dev libnav-msgs-dev \
-      librosbag-dev libroscpp-dev libros-rosgraph-msgs-dev libstd-msgs-dev libtf2-geometry-msgs-dev libtf2-msgs-dev \
-      libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs python3-rosbag python3-roslaunch \
+    build) echo catkin ros-message-generation libdiagnostic-updater-dev \
+      libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libnav-msgs-dev \
+      librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-geometry-msgs-dev libtf2-msgs-dev \
+      libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs ros-std-srvs \
+      python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-std-srvs \
+      python3-tf2-msgs python3-visualization-msgs python3-rospy python3-rosservice python3-rosbag python3-roslaunch \
       python3-rostopic rosbash rosout ;;
     test)
       echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-rosservice
@@ -79,8 +82,8 @@ packages_of_debian() {
 
 packages_of_noetic() {
   case "$1" in
-    build) printf 'ros-noetic-%s ' catkin diagnostic-updater geometry-msgs message-generation nav-msgs rosbag rosbash \
-      roscpp rosgraph-msgs roslaunch rosout rostopic std-msgs tf2-geometry-msgs tf2-msgs tf2-ros visualization-msgs ;;
+    build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs message-generation nav-msgs rosbag rosbash \
+      roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic std-msgs std-srvs tf2-geometry-msgs tf2-msgs tf2-ros visualization-msgs ;;
     test) printf 'ros-noetic-%s ' rostest rosnode rosmsg rosservice ;;
     rviz) printf 'ros-noetic-%s ' rviz ;;
   esac
