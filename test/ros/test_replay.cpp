@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <hovercraft_sim/AppliedCommand.h>
 #include <rosbag/bag.h>
+#include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/bag_writer.h"
 #include "hovercraft_sim/ros/conversions.h"

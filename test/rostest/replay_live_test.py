@@ -9,6 +9,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import xmlrpc.client
 
 import dynamic_reconfigure.client
 import rosbag
@@ -26,10 +27,11 @@ TICKS = 3000  # of each flight at least
 
 
 def recorder_listens():
-    """The recorder's subscriptions of every topic are known to the master."""
-    _, subscribers, _ = rosgraph.Master('/replay_live_test').getSystemState()
-    listening = {topic for topic, nodes in subscribers if any(node.startswith('/recorder') for node in nodes)}
-    return listening.issuperset(TOPICS)
+    """The node has a connection to the recorder for every topic; that the master knows of it is not enough."""
+    node = xmlrpc.client.ServerProxy(rosgraph.Master('/replay_live_test').lookupNode('/hovercraft_sim'))
+    _, _, connections = node.getBusInfo('/replay_live_test')
+    connected = {wire[4] for wire in connections if wire[1] == '/recorder' and wire[2] == 'o'}
+    return connected.issuperset(TOPICS)
 
 
 class ReplayLiveTest(unittest.TestCase):
