@@ -32,4 +32,34 @@ constexpr double kNanosecondSlack = 1e-14;
 /// apart.
 constexpr double kMaxNanoseconds = 1e15;
 
+/// Height (-, of the greatest coordinate) up to which a vertex of a polyhedron counts as in the plane
+/// of a face: rounding of rotated coordinates is some 1e-16, and no error of a distance may pass
+/// 1e-12 of the size.
+constexpr double kPlanarSlack = 1e-13;
+
+/// Dent (-, of the greatest coordinate) up to which a mesh counts as convex: four roundings to the
+/// single precision that mesh files are read with.
+constexpr double kMeshDentSlack = 4.0 * 5.9604644775390625e-8;
+
+/// Sine of the angle (-) by which a direction may leave a Voronoi region and still count as on its
+/// boundary: a hundred roundings of a unit vector. Between two features that are as parallel as
+/// this the distance differs by no more than 2e-14 of their length.
+constexpr double kVoronoiSlack = 2e-14;
+
+/// Rounding (-, of the sum of all coordinates) of the difference of two points in one frame: each
+/// coordinate is a sum of four terms, eight roundings of 1.1e-16 bound it.
+constexpr double kPointRounding = 8e-16;
+
+/// Distance (-, of the sum of all coordinates) up to which two bodies touch: what rounding leaves of
+/// the sign.
+constexpr double kTouching = 4e-15;
+
+/// Square of the sine of the angle (-) below which two edges are taken as parallel: their common
+/// perpendicular is lost in rounding.
+constexpr double kParallelEdges = 1e-26;
+
+/// Square of the sine of the angle (-) between two edges from which on their cross product gives
+/// the direction of the distance better than the difference of the witness points.
+constexpr double kCrossingEdges = 1e-4;
+
 }  // namespace hovercraft
