@@ -51,7 +51,7 @@ ClosestFeatures closestFeatures(const ConvexPolyhedron& A, const Pose& X_WA,
     last.b = least.feature_b;
     last.known = true;
     last.hints = {0, 0};
-    const double touching = kTouching * walk.scale();
+    const double touching = kTouchingOverlap * walk.scale();
     if (least.overlap > touching) {
       return overlapping(least, Proximity::kPenetrating, walk.steps());
     }

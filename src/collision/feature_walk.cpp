@@ -120,7 +120,7 @@ FeatureWalk::Outcome FeatureWalk::vertexEdge(int x) {
   const Vector3 v = toWorld(x, vertex(x).p);
   const Vector3 w = toBody(y, v) - e.p;
   const double t = dot(w, e.direction);
-  if (t <= 0.0 || t >= e.length) {
+  if (t <= -margin() || t >= e.length + margin()) {
     setFeature(y, FeatureKind::kVertex, e.vertex[t <= 0.0 ? 0 : 1]);
     return Outcome::kMoved;
   }
@@ -161,31 +161,34 @@ FeatureWalk::Outcome FeatureWalk::edgeEdge() {
   const Vector3 w = b - a;
   const Vector3 n = cross(da, db);
   const double nn = dot(n, n);
-  double s = 0.0;
-  if (nn > kParallelEdges) s = dot(cross(w, db), n) / nn;
-  s = std::min(std::max(s, 0.0), ea.length);
-  double t = dot(Vector3(s * da - w), db);
-  if (t <= 0.0 || t >= eb.length) {
-    t = std::min(std::max(t, 0.0), eb.length);
-    s = dot(Vector3(w + t * db), da);
+  EdgePoints at_edges;
+  if (precise_) {
+    at_edges = preciseEdges();
+  } else {
+    double s = 0.0;
+    if (nn > kParallelEdges) s = dot(cross(w, db), n) / nn;
+    s = std::min(std::max(s, 0.0), ea.length);
+    double t = dot(Vector3(s * da - w), db);
+    if (t <= 0.0 || t >= eb.length) {
+      t = std::min(std::max(t, 0.0), eb.length);
+      s = dot(Vector3(w + t * db), da);
+    }
+    at_edges = {s, t, s <= 0.0 || s >= ea.length, t <= 0.0 || t >= eb.length, w + t * db - s * da};
   }
-  const bool end_A = s <= 0.0 || s >= ea.length;
-  const bool end_B = t <= 0.0 || t >= eb.length;
-  if (end_A) setFeature(0, FeatureKind::kVertex, ea.vertex[s <= 0.0 ? 0 : 1]);
-  if (end_B) setFeature(1, FeatureKind::kVertex, eb.vertex[t <= 0.0 ? 0 : 1]);
-  if (end_A || end_B) return Outcome::kMoved;
-  point_[0] = a + s * da;
-  point_[1] = b + t * db;
-  if (nn >= kCrossingEdges) {
+  if (at_edges.end_A) setFeature(0, FeatureKind::kVertex, ea.vertex[at_edges.s <= 0.0 ? 0 : 1]);
+  if (at_edges.end_B) setFeature(1, FeatureKind::kVertex, eb.vertex[at_edges.t <= 0.0 ? 0 : 1]);
+  if (at_edges.end_A || at_edges.end_B) return Outcome::kMoved;
+  point_[0] = a + at_edges.s * da;
+  point_[1] = b + at_edges.t * db;
+  if (nn >= kCrossingEdges && !precise_) {
     const double sine = std::sqrt(nn);
     const double height = dot(w, n) / sine;
     if (std::abs(height) <= kTouching * scale_) return Outcome::kOverlap;
-    return edgesMeet(n / (height > 0.0 ? sine : -sine), std::abs(height), 0.0);
+    return edgesMeet(n / (height > 0.0 ? sine : -sine), std::abs(height), kPointRounding / sine);
   }
-  const Vector3 u = precise_ ? preciseDifference() : Vector3(point_[1] - point_[0]);
-  const double length = norm(u);
+  const double length = norm(at_edges.u);
   if (length <= kTouching * scale_) return Outcome::kOverlap;
-  return edgesMeet(u / length, length, precise_ ? 0.0 : rounding_ / length);
+  return edgesMeet(at_edges.u / length, length, precise_ ? 0.0 : rounding_ / length);
 }
 
 /// Two edges with the unit normal from A to B between their lines, known to within `error` (-); 0
@@ -212,30 +215,45 @@ FeatureWalk::Outcome FeatureWalk::edgesMeet(const Vector3& normal, double length
   return Outcome::kClosest;
 }
 
-/// u of two vertices or two edges, from A to B in W, right to the last bit but one.
+/// From the vertex of A to that of B in W, right to the last bit but one.
 Vector3 FeatureWalk::preciseDifference() const {
-  const PreciseVector zero;
-  const PreciseVector shift(shift_);
-  if (feature_[0].kind == FeatureKind::kVertex) {
-    const PreciseVector a = preciseWorld(*R_[0], zero, vertex(0).p);
-    return (preciseWorld(*R_[1], shift, vertex(1).p) - a).rounded();
-  }
+  const PreciseVector a = preciseWorld(*R_[0], PreciseVector(), vertex(0).p);
+  return (preciseWorld(*R_[1], PreciseVector(shift_), vertex(1).p) - a).rounded();
+}
+
+/// The closest points of the two edges, right to the last bit but one.
+FeatureWalk::EdgePoints FeatureWalk::preciseEdges() const {
   const auto end = [&](int side, int i) {
     const Data::Vertex& v = body_[side]->vertices[at(edge(side).vertex[i])];
-    return preciseWorld(*R_[side], side == 0 ? zero : shift, v.p);
+    return preciseWorld(*R_[side], side == 0 ? PreciseVector() : PreciseVector(shift_), v.p);
+  };
+  // Up to the margin past an end counts as on the edge.
+  const double over_A = margin() / edge(0).length;
+  const double over_B = margin() / edge(1).length;
+  const auto clamp = [](const DoubleDouble& x, double over) {
+    if (!(x.high > -over)) return DoubleDouble(-over);
+    return x.high >= 1.0 + over ? DoubleDouble(1.0 + over) : x;
+  };
+  const auto clamped = [](const DoubleDouble& x, double over) {
+    return x.high == -over || x.high == 1.0 + over;
   };
   const PreciseVector a = end(0, 0);
   const PreciseVector b = end(1, 0);
   const PreciseVector da = end(0, 1) - a;
   const PreciseVector db = end(1, 1) - b;
+  const PreciseVector w = b - a;
   const PreciseVector n = cross(da, db);
   const DoubleDouble nn = dot(n, n);
-  const PreciseVector w = b - a;
-  if (!(nn.high > kParallelEdges * (dot(da, da).high * dot(db, db).high))) {
-    const DoubleDouble along = dot(w, da) / dot(da, da);
-    return (w - along * da).rounded();
+  const DoubleDouble aa = dot(da, da);
+  const DoubleDouble bb = dot(db, db);
+  DoubleDouble share_A;
+  if (nn.high > kPreciseParallelEdges * (aa.high * bb.high)) {
+    share_A = clamp(dot(cross(w, db), n) / nn, over_A);
   }
-  return ((dot(w, n) / nn) * n).rounded();
+  const DoubleDouble share_B = clamp(dot(share_A * da - w, db) / bb, over_B);
+  if (clamped(share_B, over_B)) share_A = clamp(dot(w + share_B * db, da) / aa, over_A);
+  return {share_A.high * edge(0).length, share_B.high * edge(1).length, clamped(share_A, over_A),
+          clamped(share_B, over_B), (w + share_B * db - share_A * da).rounded()};
 }
 
 /// From the edge to the vertex on side x, in W.

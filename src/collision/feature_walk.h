@@ -65,6 +65,15 @@ class FeatureWalk {
     std::int32_t fan;  // place in PolyhedronData::fan
   };
 
+  /// The closest points of two edges.
+  struct EdgePoints {
+    double s = 0.0;      // m, from vertex[0] of A's edge
+    double t = 0.0;      // m, from vertex[0] of B's edge
+    bool end_A = false;  // the point is an end of the edge
+    bool end_B = false;
+    Vector3 u{0.0, 0.0, 0.0};  // m, from A's point to B's, axes of W
+  };
+
   Outcome step();
   Outcome vertexVertex();
   Outcome vertexEdge(int x);
@@ -80,6 +89,7 @@ class FeatureWalk {
   Outcome leaveFace(int x, const Vector3& p);
   Outcome nearestSide(int x, const Vector3& p, const Vector3& q);
   Vector3 preciseDifference() const;
+  EdgePoints preciseEdges() const;
   Vector3 preciseVertexEdge(int x) const;
   bool moveVertex(int side);
 
@@ -113,6 +123,10 @@ class FeatureWalk {
     if (slope > slack && (precise_ || slope > rounding_)) return Verdict::kOutside;
     return precise_ || rounding_ <= slack ? Verdict::kInside : Verdict::kUncertain;
   }
+  /// How far (m) a point may pass the end of an edge or the side of a face and still count as on
+  /// it: with differences better than the points themselves, the walk does not go back down for
+  /// what is rounding.
+  double margin() const { return precise_ ? rounding_ : 0.0; }
   /// Witness points `from` on side x and `to` on the other, u = to - from of length `length`.
   void setAnswer(int x, const Vector3& from, const Vector3& to, const Vector3& unit,
                  double length) {

@@ -67,7 +67,7 @@ FeatureWalk::Slope FeatureWalk::steepestOfMany(int side, const Vector3& directio
 std::int32_t FeatureWalk::ringOutside(int side, const Data::Face& f, const Vector3& p) {
   if (f.middle >= 0) return ringOutsideOfMany(side, f, p);
   const Data::RingPlane* const ring = body_[side]->ring.data() + f.ring_begin;
-  double least = 0.0;
+  double least = -margin();
   std::int32_t chosen = -1;
   for (std::int32_t i = 0; i < f.ring_count; ++i) {
     const double inside = dot(ring[i].inward, p) - ring[i].offset;
@@ -91,7 +91,7 @@ std::int32_t FeatureWalk::ringOutsideOfMany(int side, const Data::Face& f, const
   };
   const std::int32_t top = topOfCycle(f.ring_count, hints_[at(side)], share);
   hints_[at(side)] = top;
-  return dot(ring[top].inward, p) - ring[top].offset < 0.0 ? f.ring_begin + top : -1;
+  return dot(ring[top].inward, p) - ring[top].offset < -margin() ? f.ring_begin + top : -1;
 }
 
 /// Vertex on side x, face on the other.
@@ -151,8 +151,8 @@ FeatureWalk::Outcome FeatureWalk::edgeFace(int x) {
   std::int32_t to_side = -1;
   for (std::int32_t i = f.ring_begin; i < f.ring_begin + f.ring_count; ++i) {
     const Data::RingPlane& plane = body_[y]->ring[at(i)];
-    const double a = dot(plane.inward, start) - plane.offset;
-    const double b = dot(plane.inward, end) - plane.offset;
+    const double a = dot(plane.inward, start) - plane.offset + margin();
+    const double b = dot(plane.inward, end) - plane.offset + margin();
     if (a < 0.0 && b < 0.0) return nearestSide(x, start, end);
     if (a < 0.0 && a / (a - b) > from) {
       from = a / (a - b);

@@ -54,9 +54,16 @@ constexpr double kPointRounding = 8e-16;
 /// the sign.
 constexpr double kTouching = 4e-15;
 
+/// Overlap (-, of the sum of all coordinates) up to which two bodies whose features met count as
+/// touching: the sum over ten such roundings.
+constexpr double kTouchingOverlap = 4e-14;
+
 /// Square of the sine of the angle (-) below which two edges are taken as parallel: their common
 /// perpendicular is lost in rounding.
 constexpr double kParallelEdges = 1e-26;
+
+/// The same in numbers of 106 bits.
+constexpr double kPreciseParallelEdges = 1e-56;
 
 /// Square of the sine of the angle (-) between two edges from which on their cross product gives
 /// the direction of the distance better than the difference of the witness points.
