@@ -18,6 +18,7 @@ ClosestFeatures separated(const FeatureWalk& walk, const Vector3& origin) {
   result.feature_b = walk.features()[1];
   result.steps = walk.steps();
   result.excess = walk.excess();
+  result.edge_sine = walk.edgeSine();
   return result;
 }
 

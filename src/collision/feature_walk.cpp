@@ -161,6 +161,7 @@ FeatureWalk::Outcome FeatureWalk::edgeEdge() {
   const Vector3 w = b - a;
   const Vector3 n = cross(da, db);
   const double nn = dot(n, n);
+  edge_sine_ = 0.0;
   EdgePoints at_edges;
   if (precise_) {
     at_edges = preciseEdges();
@@ -182,6 +183,7 @@ FeatureWalk::Outcome FeatureWalk::edgeEdge() {
   point_[1] = b + at_edges.t * db;
   if (nn >= kCrossingEdges && !precise_) {
     const double sine = std::sqrt(nn);
+    edge_sine_ = sine;
     const double height = dot(w, n) / sine;
     if (std::abs(height) <= kTouching * scale_) return Outcome::kOverlap;
     return edgesMeet(n / (height > 0.0 ? sine : -sine), std::abs(height), kPointRounding / sine);

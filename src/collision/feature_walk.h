@@ -53,6 +53,7 @@ class FeatureWalk {
   const Vector3& point(int side) const { return point_[at(side)]; }  // from A's origin
   int steps() const { return steps_; }
   double excess() const { return excess_; }
+  double edgeSine() const { return edge_sine_; }
 
  private:
   using Data = PolyhedronData;
@@ -148,6 +149,7 @@ class FeatureWalk {
   Vector3 normal_{0.0, 0.0, 0.0};
   double distance_ = 0.0;
   double excess_ = 0.0;
+  double edge_sine_ = 0.0;
   int steps_ = 0;
 };
 

@@ -111,19 +111,36 @@ inline Real heightOver(const Body& body, std::size_t face, const Vec& p) {
   return height;
 }
 
+/// An edge with a ball around it.
+struct Segment {
+  Vec p;
+  Vec d;
+  Vec middle;
+  Real half = 0;
+};
+
+inline std::vector<Segment> segments(const Body& body) {
+  std::vector<Segment> result;
+  for (const auto& e : body.edges) {
+    const Vec p = body.vertices[static_cast<std::size_t>(e[0])];
+    const Vec d = body.vertices[static_cast<std::size_t>(e[1])] - p;
+    result.push_back({p, d, p + Real(0.5) * d, std::sqrt(dot(d, d)) / 2});
+  }
+  return result;
+}
+
 /// Distance of two disjoint bodies.
 inline Real distance(const Body& a, const Body& b) {
   Real best = std::numeric_limits<Real>::infinity();
-  for (const auto& ea : a.edges) {
-    const Vec p = a.vertices[static_cast<std::size_t>(ea[0])];
-    const Vec d = a.vertices[static_cast<std::size_t>(ea[1])] - p;
-    for (const auto& eb : b.edges) {
-      const Vec q = b.vertices[static_cast<std::size_t>(eb[0])];
-      best =
-          std::min(best, squaredSegments(p, d, q, b.vertices[static_cast<std::size_t>(eb[1])] - q));
+  const std::vector<Segment> edges_B = segments(b);
+  for (const Segment& ea : segments(a)) {
+    for (const Segment& eb : edges_B) {
+      const Vec between = eb.middle - ea.middle;
+      const Real reach = best + ea.half + eb.half;
+      if (dot(between, between) > reach * reach) continue;  // the balls are farther apart
+      best = std::min(best, std::sqrt(squaredSegments(ea.p, ea.d, eb.p, eb.d)));
     }
   }
-  best = std::sqrt(best);
   for (std::size_t f = 0; f < a.faces.size(); ++f) {
     for (const Vec& v : b.vertices) best = std::min(best, heightOver(a, f, v));
   }

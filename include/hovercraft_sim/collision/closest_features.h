@@ -40,6 +40,7 @@ struct ClosestFeatures {
   /// regions of the two features; at most kVoronoiSlack when separated: theorem 2 then says that no
   /// other points are closer.
   double excess = 0.0;
+  double edge_sine = 0.0;  // of the angle between two edges; 0 for other features
 };
 
 /// Closest features by the algorithm of Lin and Canny (1991), over the states of V-Clip (Mirtich

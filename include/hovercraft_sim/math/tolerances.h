@@ -69,4 +69,8 @@ constexpr double kPreciseParallelEdges = 1e-56;
 /// the direction of the distance better than the difference of the witness points.
 constexpr double kCrossingEdges = 1e-4;
 
+/// Bound on the number of queries in one search for a time of impact. Each step of the search closes
+/// a fixed share of the gap at least; ten to a hundred are usual.
+constexpr int kMaxImpactQueries = 10000;
+
 }  // namespace hovercraft
