@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Checks that every test of the sources ran and passed.
 
 The sources decide what should have run: each TEST of test/**/*.cpp must be in a result file, completed and passed;

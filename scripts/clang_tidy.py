@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Runs clang-tidy on every source of the project that a compile database names.
 
 A source that was found clean is not looked at again until it, a header of the project that it includes, its compile
@@ -59,7 +58,8 @@ def main():
     stamps = build / 'clang_tidy'
     stamps.mkdir(exist_ok=True)
     version = subprocess.run(['clang-tidy', '--version'], stdout=subprocess.PIPE, check=True).stdout
-    configuration = version + (ROOT / '.clang-tidy').read_bytes()
+    configurations = [ROOT / '.clang-tidy'] + [ROOT / folder / '.clang-tidy' for folder in FOLDERS]
+    configuration = version + b''.join(path.read_bytes() for path in configurations if path.is_file())
 
     entries = json.loads((build / 'compile_commands.json').read_text())
     ours = {entry['file']: entry for entry in entries

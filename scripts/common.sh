@@ -1,11 +1,12 @@
 # shellcheck shell=bash disable=SC2034
 # Shared by the scripts in this folder; sourced, never run. It moves to the root of the checkout, takes an
-# environment in which ROS 1 works, and offers: install PURPOSE..., enter_ros, note, fail.
+# environment in which ROS 1 works, and offers: install_packages PURPOSE..., enter_ros, free_port, note, fail.
 #
 # Packages come from Debian's own archive (11 to 13; Ubuntu from 22.04 on carries the same in universe) or, on
 # Ubuntu 20.04, from the ROS archive (Noetic).
 
 set -euo pipefail
+readonly CALLED_FROM=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # The system's Python first: catkin and the ROS tools find their modules with no other. What a sourced workspace or a
@@ -63,12 +64,15 @@ packages_for() {
 # ros-std-msgs and its like hold the .msg files, the lib*-dev packages the generated headers.
 packages_of_debian() {
   case "$1" in
-    build) echo catkin ros-message-generation libdiagnostic-updater-dev libgeometry-msgs-dev libnav-msgs-dev \
-      librosbag-dev libroscpp-dev libros-rosgraph-msgs-dev libstd-msgs-dev libtf2-geometry-msgs-dev libtf2-msgs-dev \
-      libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs python3-rosbag python3-roslaunch \
-      rosbash rosout ;;
+    build) echo catkin ros-message-generation libdiagnostic-updater-dev \
+      libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libnav-msgs-dev \
+      librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-geometry-msgs-dev libtf2-msgs-dev \
+      libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs ros-std-srvs \
+      python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-std-srvs \
+      python3-tf2-msgs python3-visualization-msgs python3-rospy python3-rosservice python3-rosbag python3-roslaunch \
+      python3-rostopic rosbash rosout ;;
     test)
-      echo librostest-dev python3-rostest python3-rostopic python3-rosnode python3-rosmsg python3-rosservice
+      echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-rosservice
       # The runtime of clang's sanitizers; before, it was part of what clang depends on.
       case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac
       ;;
@@ -78,15 +82,15 @@ packages_of_debian() {
 
 packages_of_noetic() {
   case "$1" in
-    build) printf 'ros-noetic-%s ' catkin diagnostic-updater geometry-msgs message-generation nav-msgs rosbag rosbash \
-      roscpp rosgraph-msgs roslaunch rosout std-msgs tf2-geometry-msgs tf2-msgs tf2-ros visualization-msgs ;;
-    test) printf 'ros-noetic-%s ' rostest rostopic rosnode rosmsg rosservice ;;
+    build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs message-generation nav-msgs rosbag rosbash \
+      roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic std-msgs std-srvs tf2-geometry-msgs tf2-msgs tf2-ros visualization-msgs ;;
+    test) printf 'ros-noetic-%s ' rostest rosnode rosmsg rosservice ;;
     rviz) printf 'ros-noetic-%s ' rviz ;;
   esac
 }
 
-# install PURPOSE...: installs by apt what these purposes lack; does nothing, and needs no network, if nothing is missing.
-install() {
+# install_packages PURPOSE...: installs by apt what these purposes lack; does nothing, and needs no network, if nothing is missing.
+install_packages() {
   if [[ $(system_family) == unknown ]]; then
     explain_unknown_system "$@"
     return

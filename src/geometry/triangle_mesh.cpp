@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hovercraft_sim/geometry/shells.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/tolerances.h"
@@ -23,7 +24,7 @@ namespace {
 }
 
 std::string coordinates(const Vector3& point) {
-  return fmt::format("({}, {}, {})", point.x(), point.y(), point.z());
+  return fmt::format("({:.12g}, {:.12g}, {:.12g})", point.x(), point.y(), point.z());
 }
 
 /// x -> linear x + shift
@@ -71,7 +72,7 @@ void addMesh(const aiMesh& source, const Affine& place, const std::string& name,
     for (unsigned i = 0; i < 3; ++i) {
       const aiVector3D& p = source.mVertices[face.mIndices[i]];
       corners[i] = times(place.linear, Vector3(p.x, p.y, p.z)) + place.shift;
-      if (!corners[i].allFinite()) refuse(name, "a vertex is not finite");
+      if (!corners[i].allFinite()) refuse(name, "not finite: " + coordinates(corners[i]));
     }
     if (mirrored) std::swap(corners[1], corners[2]);
     welder.add(corners);
@@ -193,38 +194,106 @@ void checkEdges(const TriangleMesh& mesh, const std::string& name) {
   }
 }
 
-/// The volume that rounding the coordinates to single precision can make or lose: the surface
-/// times the rounding of the largest coordinate, m³.
-double volumeOfRounding(const TriangleMesh& mesh) {
-  double largest = 0.0;
-  for (const Vector3& p : mesh.vertices) largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  double area = 0.0;
+/// How far behind the surface a shell is compared with the others, in roundings of the largest
+/// coordinate (-): beyond what rounding does to the common face of touching parts, but within the
+/// thinnest shell that passes, which is 2 / kMeshVolume roundings thick.
+constexpr double kSampleDepth = 10.0;
+
+/// What a shell encloses, and the box around it.
+struct Solid {
+  double volume = 0.0;       // m³
+  double uncertainty = 0.0;  // m³: the surface times the rounding of the largest coordinate
+  double largest = 0.0;      // the largest coordinate, m
+  Vector3 low;               // corners of the box, m
+  Vector3 high;
+  Vector3 sample = Vector3::Zero();  // a point of the body, just behind its largest triangle, m
+};
+
+Solid measure(const TriangleMesh& mesh) {
+  Solid solid;
+  solid.volume = signedVolume(mesh);
+  solid.low = solid.high = mesh.vertices.front();
+  for (const Vector3& p : mesh.vertices) {
+    solid.low = solid.low.cwiseMin(p);
+    solid.high = solid.high.cwiseMax(p);
+    solid.largest = std::max(solid.largest, p.cwiseAbs().maxCoeff());
+  }
+  double surface = 0.0;
+  double largest_area = 0.0;
   for (const auto& triangle : mesh.triangles) {
     const Vector3& a = mesh.vertices[static_cast<std::size_t>(triangle[0])];
     const Vector3& b = mesh.vertices[static_cast<std::size_t>(triangle[1])];
     const Vector3& c = mesh.vertices[static_cast<std::size_t>(triangle[2])];
-    area += 0.5 * norm(cross(b - a, c - a));
+    const Vector3 normal = cross(b - a, c - a);
+    const double area = 0.5 * norm(normal);
+    surface += area;
+    if (area <= largest_area) continue;
+    largest_area = area;
+    solid.sample = a + ((b - a) + (c - a)) / 3.0 -
+                   (kSampleDepth * kMeshCoordinate * solid.largest / (2.0 * area)) * normal;
   }
-  return area * largest * kSinglePrecision;
+  solid.uncertainty = surface * solid.largest * kMeshCoordinate;
+  return solid;
+}
+
+void checkVolume(const Solid& solid, const std::string& name) {
+  if (solid.volume < -solid.uncertainty) {
+    refuse(name,
+           fmt::format("inside out: its volume is {:.12g} m^3: seen from outside, the vertices of "
+                       "each face must run counter-clockwise",
+                       solid.volume));
+  }
+  if (!(solid.uncertainty <= kMeshVolume * solid.volume)) {
+    refuse(
+        name,
+        fmt::format(
+            "volume = {:.12g} m^3 with an uncertainty of {:.12g} m^3, as coordinates of {:.12g} m "
+            "are rounded to {:g} of themselves: must be known to {:g} %",
+            solid.volume, solid.uncertainty, solid.largest, kMeshCoordinate, 100.0 * kMeshVolume));
+  }
+}
+
+bool contains(const Solid& solid, const Vector3& point) {
+  return (solid.low.array() <= point.array()).all() && (point.array() <= solid.high.array()).all();
+}
+
+/// Checks that a shell in no other one faces outwards and a shell in another one (a cavity)
+/// inwards, and so on for what is in a cavity.
+void checkShells(const TriangleMesh& mesh, const std::string& name) {
+  const std::vector<TriangleMesh> shells = shellsOf(mesh);
+  if (shells.size() == 1) return;
+  std::vector<Solid> solids;
+  solids.reserve(shells.size());
+  for (const TriangleMesh& shell : shells) solids.push_back(measure(shell));
+  for (std::size_t i = 0; i < shells.size(); ++i) {
+    if (std::abs(solids[i].volume) <= solids[i].uncertainty) continue;  // adds nothing
+    double winding = 0.0;  // of all others around this one
+    for (std::size_t j = 0; j < shells.size(); ++j) {
+      if (j == i || !contains(solids[j], solids[i].sample)) continue;
+      winding += windingNumber(shells[j], solids[i].sample);
+    }
+    const bool is_inside = winding > 0.5;
+    if (is_inside == (solids[i].volume < 0.0)) continue;
+    refuse(name,
+           fmt::format(
+               "the shell with the vertex {} m has the volume {:.12g} m^3 and lies {}: a shell "
+               "must face outwards, the wall of a cavity inwards",
+               coordinates(shells[i].vertices.front()), solids[i].volume,
+               is_inside ? "inside another" : "in no other"));
+  }
 }
 
 }  // namespace
 
 void checkClosed(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.triangles.empty()) refuse(name, "no triangles");
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (mesh.vertices[i].allFinite()) continue;
+    refuse(name, fmt::format("vertex {} is not finite: {}", i, coordinates(mesh.vertices[i])));
+  }
   checkEdges(mesh, name);
-  const double volume = signedVolume(mesh);
-  const double least = volumeOfRounding(mesh);
-  if (volume < -least) {
-    refuse(name, fmt::format("inside out: its volume is {} m^3: seen from outside, the vertices of "
-                             "each face must run counter-clockwise",
-                             volume));
-  }
-  if (!(volume > least)) {
-    refuse(name, fmt::format("no volume: {} m^3, must be larger than {} m^3, what rounding to "
-                             "single precision makes",
-                             volume, least));
-  }
+  checkVolume(measure(mesh), name);
+  checkShells(mesh, name);
 }
 
 TriangleMesh loadTriangleMesh(const std::string& path) {

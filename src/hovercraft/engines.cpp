@@ -1,9 +1,11 @@
 #include "hovercraft_sim/hovercraft/engines.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 
@@ -33,7 +35,8 @@ ThrustCourse EngineDynamics::course(const EngineStates& states, Tick tick) const
     const auto index = static_cast<std::size_t>(i);
     const double demanded = demandedThrust(i, states[index], tick);
     const bool lags = parameters_[index].time_constant > 0.0;
-    const double lead = lags ? states[index].thrust - demanded : 0.0;
+    double lead = lags ? states[index].thrust - demanded : 0.0;
+    if (std::abs(lead) < kSettledThrust) lead = 0.0;
     course.start[i] = demanded + lead;
     course.middle[i] = demanded + lead * half_decay_[i];
     course.end[i] = demanded + lead * full_decay_[i];

@@ -26,7 +26,8 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
   state_.header.frame_id = world_frame;
 }
 
-void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::Time& stamp) {
+void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::Time& stamp,
+                           std::uint32_t episode) {
   for (std_msgs::Header* header : {&pose_.header, &twist_.header, &odom_.header, &transform_.header,
                                    &engines_.header, &state_.header}) {
     header->stamp = stamp;
@@ -47,6 +48,7 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::
   engines_.right = toMessage(simulation.engineReport(vehicle_, 2));
 
   state_.tick = static_cast<std::uint64_t>(simulation.tick());
+  state_.episode = episode;
   state_.pose.position = toPointMessage(motion.p_WB);
   state_.pose.orientation = toQuaternionMessage(motion.q_WB);
   state_.velocity = toVector3Message(motion.twist.v_WB);
@@ -59,8 +61,10 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::
 }
 
 hovercraft_sim::AppliedCommand VehicleMessages::appliedCommand(const hovercraft::Command& command,
-                                                               const ros::Time& stamp) const {
+                                                               const ros::Time& stamp,
+                                                               std::uint32_t episode) const {
   hovercraft_sim::AppliedCommand message = toMessage(command);
+  message.episode = episode;
   message.header.stamp = stamp;
   message.header.frame_id = engines_.header.frame_id;
   return message;

@@ -5,11 +5,11 @@
 namespace hovercraft {
 
 void CommandLog::push(const Command& command) {
-  if (empty()) {
-    waiting_.clear();
+  demand(empty() || waiting_.back().tick <= command.tick, "commands must come in order of ticks");
+  if (2 * next_ >= waiting_.size()) {  // each command is moved once at most, on the average
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next_));
     next_ = 0;
   }
-  demand(empty() || waiting_.back().tick <= command.tick, "commands must come in order of ticks");
   waiting_.push_back(command);
 }
 

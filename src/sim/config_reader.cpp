@@ -1,48 +1,21 @@
 #include "hovercraft_sim/sim/config_reader.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 #include <fmt/format.h>
 #include <locale>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
+
+#include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
 namespace {
 
-enum class Syntax { kNumber, kNotFinite, kNoNumber };
+constexpr std::size_t kLongestShown = 80;  // bytes of a value in a message
 
-struct ParsedNumber {
-  Syntax syntax = Syntax::kNoNumber;
-  double value = 0.0;
-};
-
-bool isNotFiniteWord(std::string word) {
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (!word.empty() && (word.front() == '+' || word.front() == '-')) word.erase(0, 1);
-  if (!word.empty() && word.front() == '.') word.erase(0, 1);
-  return word == "nan" || word == "inf" || word == "infinity";
-}
-
-/// Decimal text to the nearest double, whatever the locale.
-ParsedNumber parseNumber(const std::string& text) {
-  if (isNotFiniteWord(text)) return {Syntax::kNotFinite, 0.0};
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  ParsedNumber result;
-  stream >> result.value;
-  const bool whole = stream.eof() && !text.empty();
-  if (stream.fail()) {
-    return {whole && std::abs(result.value) > 0.0 ? Syntax::kNotFinite : Syntax::kNoNumber, 0.0};
-  }
-  if (whole) result.syntax = std::isfinite(result.value) ? Syntax::kNumber : Syntax::kNotFinite;
-  return result;
-}
-
-std::string shown(const YAML::Node& node) {
+std::string textOf(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "";
   if (node.IsScalar()) return node.Scalar();
   YAML::Emitter emitter;
@@ -50,6 +23,24 @@ std::string shown(const YAML::Node& node) {
   emitter.SetMapFormat(YAML::Flow);
   emitter << node;
   return emitter.c_str();
+}
+
+/// What a message shows of a value: not a whole tree.
+std::string shown(const YAML::Node& node) {
+  const std::string text = textOf(node);
+  if (text.size() <= kLongestShown) return text;
+  const auto continues_character = [](char c) {  // of UTF-8
+    return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U;
+  };
+  std::size_t end = kLongestShown;
+  while (end > 0 && continues_character(text[end])) --end;
+  return text.substr(0, end) + "...";
+}
+
+std::string onOneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return text;
 }
 
 }  // namespace
@@ -65,8 +56,8 @@ ConfigReader::ConfigReader(const YAML::Node& node, std::string source, std::stri
   if (!node_.IsMap()) fail("", "must be a map of keys");
 }
 
-void ConfigReader::fail(const std::string& key, const std::string& rule) const {
-  const std::string where = pathOf(key);
+std::string ConfigReader::where(const std::string& key) const {
+  const std::string path = pathOf(key);
   std::string value;
   if (key.empty()) {
     value = shown(node_);
@@ -74,9 +65,12 @@ void ConfigReader::fail(const std::string& key, const std::string& rule) const {
     const YAML::Node& tree = node_;
     value = shown(tree[key]);
   }
-  throw std::invalid_argument(fmt::format("{}: {}{}{}: {}", source_,
-                                          where.empty() ? "the scenario" : where,
-                                          value.empty() ? "" : " = ", value, rule));
+  return onOneLine(fmt::format("{}: {}{}{}", source_, path.empty() ? "the scenario" : path,
+                               value.empty() ? "" : " = ", value));
+}
+
+void ConfigReader::fail(const std::string& key, const std::string& rule) const {
+  throw std::invalid_argument(fmt::format("{}: {}", where(key), rule));
 }
 
 std::string ConfigReader::pathOf(const std::string& key) const {
@@ -87,7 +81,7 @@ std::string ConfigReader::pathOf(const std::string& key) const {
 void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
   std::map<std::string, int> seen;
   for (const auto& entry : node_) {
-    const std::string key = shown(entry.first);
+    const std::string key = textOf(entry.first);
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       fail(key, fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
     }
@@ -115,7 +109,7 @@ ConfigReader ConfigReader::map(const std::string& key) const {
 std::vector<std::pair<std::string, ConfigReader>> ConfigReader::maps() const {
   std::map<std::string, ConfigReader> sorted;
   for (const auto& entry : node_) {
-    const std::string key = shown(entry.first);
+    const std::string key = textOf(entry.first);
     if (!sorted.emplace(key, ConfigReader(entry.second, source_, pathOf(key))).second) {
       fail(key, "the name stands twice");
     }
@@ -136,8 +130,8 @@ std::vector<ConfigReader> ConfigReader::list(const char* key) const {
 double ConfigReader::numberAt(const YAML::Node& node, const std::string& key,
                               const NumberRule& rule) const {
   const ParsedNumber parsed = node.IsScalar() ? parseNumber(node.Scalar()) : ParsedNumber{};
-  if (parsed.syntax == Syntax::kNoNumber) fail(key, "must be a number");
-  if (parsed.syntax == Syntax::kNotFinite) fail(key, "must be finite");
+  if (parsed.syntax == NumberSyntax::kNoNumber) fail(key, "must be a number");
+  if (parsed.syntax == NumberSyntax::kNotFinite) fail(key, "must be finite");
   if (!rule.holds(parsed.value)) fail(key, rule.text);
   return parsed.value;
 }
@@ -174,6 +168,14 @@ Vector3 ConfigReader::vector(const char* key, const NumberRule& rule) const {
 Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,
                                const NumberRule& rule) const {
   return has(key) ? vector(key, rule) : fallback;
+}
+
+bool ConfigReader::flagOr(bool fallback, const char* key) const {
+  if (!has(key)) return fallback;
+  const YAML::Node node = required(key);
+  const std::string value = node.IsScalar() ? node.Scalar() : "";
+  if (value != "true" && value != "false") fail(key, "must be true or false");
+  return value == "true";
 }
 
 std::string ConfigReader::text(const char* key) const {

@@ -18,8 +18,9 @@ namespace {
 
 std::int64_t nanoseconds(const ConfigReader& reader, const char* key, double seconds) {
   const double exact = seconds * static_cast<double>(kNanosecondsPerSecond);
-  if (!(std::abs(exact) < kMaxNanoseconds)) {
-    reader.fail(key, fmt::format("must be at most {} s", kMaxNanoseconds * 1e-9));
+  if (!(exact <= kMaxNanoseconds)) {
+    reader.fail(key,
+                fmt::format("must be at most {:.0f} s", kMaxNanoseconds / kNanosecondsPerSecond));
   }
   const std::int64_t whole = std::llround(exact);
   if (std::abs(exact - static_cast<double>(whole)) > kNanosecondSlack * std::abs(exact)) {
@@ -72,18 +73,31 @@ MassProperties meshAtUnitDensity(const ConfigReader& reader, const std::string& 
   }
 }
 
+bool isPositiveAndFinite(double number) {
+  return number > 0.0 && std::isfinite(number);
+}
+
+/// Lengths that pass may still multiply to 0 or infinity.
+double checkedVolume(double volume, const ConfigReader& shape) {
+  if (!isPositiveAndFinite(volume)) {
+    shape.fail("", "has a volume that is not positive and finite");
+  }
+  return volume;
+}
+
 ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   if (part.has("box")) {
     const ConfigReader box = part.map("box");
     box.allowOnly({"size"});
     const Vector3 size = box.vector("size", kPositive);
-    return {{BoxShape{size}}, boxMassProperties(boxVolume(size), size)};
+    return {{BoxShape{size}}, boxMassProperties(checkedVolume(boxVolume(size), box), size)};
   }
   if (part.has("sphere")) {
     const ConfigReader sphere = part.map("sphere");
     sphere.allowOnly({"radius"});
     const double radius = sphere.number("radius", kPositive);
-    return {{SphereShape{radius}}, sphereMassProperties(sphereVolume(radius), radius)};
+    return {{SphereShape{radius}},
+            sphereMassProperties(checkedVolume(sphereVolume(radius), sphere), radius)};
   }
   if (part.has("mesh")) {
     const ConfigReader mesh = part.map("mesh");
@@ -98,10 +112,11 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   const double length = round.number("length", kPositive);
   if (is_cone) {
     return {{ConeShape{radius, length}},
-            coneMassProperties(coneVolume(radius, length), radius, length)};
+            coneMassProperties(checkedVolume(coneVolume(radius, length), round), radius, length)};
   }
-  return {{CylinderShape{radius, length}},
-          cylinderMassProperties(cylinderVolume(radius, length), radius, length)};
+  return {
+      {CylinderShape{radius, length}},
+      cylinderMassProperties(checkedVolume(cylinderVolume(radius, length), round), radius, length)};
 }
 
 /// A part and its mass properties in the hull frame.
@@ -121,6 +136,9 @@ std::pair<PartScenario, MassProperties> parsePart(const ConfigReader& reader,
   PartScenario& part = parsed.part;
   part.mass = reader.has("mass") ? reader.number("mass", kPositive)
                                  : reader.number("density", kPositive) * parsed.unit.mass;
+  if (!isPositiveAndFinite(part.mass)) {
+    reader.fail("density", "makes a mass that is not positive and finite");
+  }
   part.p_HP = reader.vectorOr(Vector3::Zero(), "position");
   part.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
   parsed.unit.I_BBo_B *= part.mass / parsed.unit.mass;
@@ -140,16 +158,13 @@ void parseMass(const ConfigReader& reader, const ScenarioSource& source, Vehicle
       placed_parts.push_back(properties);
     }
     vehicle.mass_properties = composed(placed_parts);
+    checkInertia(vehicle.mass_properties.I_BBo_B, reader.where("parts"));
     return;
   }
   vehicle.mass_properties.mass = reader.number("mass", kPositive);
   vehicle.mass_properties.p_HB = reader.vectorOr(Vector3::Zero(), "center_of_mass");
   vehicle.mass_properties.I_BBo_B = parseInertia(reader);
-  try {
-    checkInertia(vehicle.mass_properties.I_BBo_B, "inertia");
-  } catch (const std::invalid_argument& error) {
-    reader.fail("inertia", error.what());
-  }
+  checkInertia(vehicle.mass_properties.I_BBo_B, reader.where("inertia"));
 }
 
 EngineParameters parseEngine(const ConfigReader& reader) {
@@ -238,17 +253,22 @@ Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
 
 Scenario loadScenario(const std::string& path,
                       std::function<std::string(const std::string&)> package_folder) {
-  if (!std::filesystem::is_regular_file(path)) {
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable)) {
     throw std::invalid_argument(path + ": there is no such file");
   }
-  YAML::Node tree;
+  std::vector<YAML::Node> documents;
   try {
-    tree = YAML::LoadFile(path);
+    documents = YAML::LoadAllFromFile(path);
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(fmt::format("{}: not YAML: {}", path, error.what()));
   }
+  if (documents.size() != 1) {
+    throw std::invalid_argument(
+        fmt::format("{}: must be one YAML document; it holds {}", path, documents.size()));
+  }
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  return parseScenario(tree, {path, folder.string(), std::move(package_folder)});
+  return parseScenario(documents.front(), {path, folder.string(), std::move(package_folder)});
 }
 
 }  // namespace hovercraft

@@ -1,10 +1,12 @@
 #include "hovercraft_sim/sim/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/state_hash.h"
 
 namespace hovercraft {
@@ -29,13 +31,32 @@ BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
   return mobility.stateOfMotion(vehicle.initial_p_WB, rotationFromRpy(vehicle.initial_rpy), twist);
 }
 
+bool isRotation(const Quaternion& q_WB) {
+  // Components beyond 1e154 have an infinite norm, and end as 0 when they are divided by it.
+  return std::abs(squaredNorm(q_WB) - 1.0) < kUnitLength;
+}
+bool isRotation(const Matrix3& /*R_WB*/) {
+  return true;  // nearestRotation() returns nothing else
+}
+
 template <class Orientation>
-bool isFinite(const RigidBodyState<Orientation>& body) {
-  // A number that is not finite makes the sum so; the orientation was just normalised and is
-  // checked by its rate.
+bool isSound(const RigidBodyState<Orientation>& body) {
+  // A number that is not finite makes the sum so.
   const Vector3 sum = (body.p_WB + body.momentum_W) + body.angular_momentum_W;
-  const Matrix3 R_WB = rotationMatrix(body.orientation);
-  return std::isfinite(((sum.x() + sum.y()) + sum.z()) + ((R_WB(0, 0) + R_WB(1, 1)) + R_WB(2, 2)));
+  return std::isfinite((sum.x() + sum.y()) + sum.z()) && isRotation(body.orientation);
+}
+
+/// The wrenches on one craft, each added up in its frame; false if there are none.
+bool sumWrenches(const std::vector<ExternalWrench>& wrenches, std::size_t vehicle,
+                 ExternalLoad& load) {
+  bool any = false;
+  for (const ExternalWrench& external : wrenches) {
+    if (external.vehicle != vehicle) continue;
+    any = true;
+    Wrench& sum = external.frame == ExternalWrench::Frame::kWorld ? load.in_world : load.in_body;
+    sum = sum + external.wrench;
+  }
+  return any;
 }
 
 }  // namespace
@@ -45,37 +66,81 @@ Simulation::Simulation(Scenario scenario)
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     models_.push_back(modelOf(scenario_, vehicle));
     engine_dynamics_.emplace_back(vehicle.engines, scenario_.step_ns);
-    states_.push_back({initialState(scenario_, vehicle, models_.back().mobility), {}});
+  }
+  reset(scenario_.seed);
+}
+
+void Simulation::reset(std::int64_t seed) {
+  state_ = SimulationState();
+  state_.seed = seed;
+  for (std::size_t i = 0; i < models_.size(); ++i) {
+    state_.vehicles.push_back(
+        {initialState(scenario_, scenario_.vehicles[i], models_[i].mobility), {}});
+  }
+  commands_ = CommandLog();
+}
+
+void Simulation::restore(const SimulationState& state) {
+  demand(state.vehicles.size() == models_.size(), "a state must come from the same scenario");
+  state_ = state;
+  commands_ = CommandLog();
+}
+
+void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
+                           const Twist& twist) {
+  const Mobility& mobility = models_.at(vehicle).mobility;
+  BodyState& body = state_.vehicles[vehicle].body;
+  if (scenario_.orientation == OrientationKind::kQuaternion) {
+    body = mobility.stateOfMotion(p_WB, renormalized(q_WB), twist);
+  } else {
+    body = mobility.stateOfMotion(p_WB, renormalized(rotationMatrix(q_WB)), twist);
   }
 }
 
+void Simulation::applyWrench(const ExternalWrench& wrench) {
+  demand(wrench.vehicle < models_.size(), "a wrench must name a vehicle of the scenario");
+  state_.wrenches.push_back(wrench);
+}
+
+void Simulation::endWrenches() {
+  auto& wrenches = state_.wrenches;
+  wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(),
+                                [this](const ExternalWrench& wrench) {
+                                  return wrench.end_tick <= state_.tick;
+                                }),
+                 wrenches.end());
+}
+
 void Simulation::push(const Command& command) {
-  demand(command.tick >= tick_, "a command must not lie in the past");
-  demand(command.vehicle < states_.size(), "a command must name a vehicle of the scenario");
+  demand(command.tick >= state_.tick, "a command must not lie in the past");
+  demand(command.vehicle < state_.vehicles.size(), "a command must name a vehicle of the scenario");
+  demand(command.thrusts.allFinite(), "a thrust must be checked before it becomes a command");
   commands_.push(command);
 }
 
 void Simulation::applyDueCommands() {
-  while (const Command* command = commands_.takeDue(tick_)) {
-    EngineStates& engines = states_[command->vehicle].engines;
+  while (const Command* command = commands_.takeDue(state_.tick)) {
+    EngineStates& engines = state_.vehicles[command->vehicle].engines;
     for (int i = 0; i < kEngineCount; ++i) {
       if ((command->engines & maskOf(static_cast<EngineId>(i))) == 0) continue;
       EngineState& engine = engines[static_cast<std::size_t>(i)];
       engine.commanded = command->thrusts[i];
-      engine.command_tick = tick_;
+      engine.command_tick = state_.tick;
     }
     if (on_applied) on_applied(*command);
   }
 }
 
 void Simulation::stepVehicle(std::size_t vehicle) {
-  VehicleState& state = states_[vehicle];
-  const ThrustCourse thrusts = engine_dynamics_[vehicle].course(state.engines, tick_);
-  const DrivenHovercraft system = {models_[vehicle], thrusts};
+  VehicleState& state = state_.vehicles[vehicle];
+  const ThrustCourse thrusts = engine_dynamics_[vehicle].course(state.engines, state_.tick);
+  ExternalLoad load;
+  const bool is_pushed = sumWrenches(state_.wrenches, vehicle, load);
+  const DrivenHovercraft system = {models_[vehicle], thrusts, is_pushed ? &load : nullptr};
   std::visit(
       [&](auto& body) {
         body = integrationStep(scenario_.integrator, body, system, h_);
-        demand(isFinite(body), "a state is not finite after a step; the step size is too long");
+        demand(isSound(body), "a state is not finite after a step; the step size is too long");
       },
       state.body);
   for (int i = 0; i < kEngineCount; ++i) {
@@ -85,8 +150,9 @@ void Simulation::stepVehicle(std::size_t vehicle) {
 
 void Simulation::step() {
   applyDueCommands();
-  for (std::size_t vehicle = 0; vehicle < states_.size(); ++vehicle) stepVehicle(vehicle);
-  ++tick_;
+  endWrenches();
+  for (std::size_t vehicle = 0; vehicle < state_.vehicles.size(); ++vehicle) stepVehicle(vehicle);
+  ++state_.tick;
 }
 
 Motion Simulation::motion(std::size_t vehicle) const {
@@ -101,28 +167,32 @@ Motion Simulation::motion(std::size_t vehicle) const {
                 body.angular_momentum_W,
                 kineticEnergy(body, model.mobility) + potential};
       },
-      states_[vehicle].body);
+      state_.vehicles[vehicle].body);
 }
 
 EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {
-  const EngineState& state = states_[vehicle].engines[static_cast<std::size_t>(engine)];
+  const EngineState& state = state_.vehicles[vehicle].engines[static_cast<std::size_t>(engine)];
   const EngineDynamics& dynamics = engine_dynamics_[vehicle];
-  const std::int64_t age_ns = dynamics.commandAge(state, tick_);
+  const std::int64_t age_ns = dynamics.commandAge(state, state_.tick);
   return {state.commanded, state.thrust, dynamics.isSaturated(engine, state),
-          dynamics.isTimedOut(engine, state, tick_), age_ns < 0 ? -1.0 : toSeconds(age_ns)};
+          dynamics.isTimedOut(engine, state, state_.tick), age_ns < 0 ? -1.0 : toSeconds(age_ns)};
 }
 
 std::uint64_t Simulation::hash(std::size_t vehicle) const {
   StateHash hash;
-  hash.add(tick_);
-  hash.add(states_[vehicle]);
+  hash.add(state_.tick);
+  hash.add(state_.vehicles[vehicle]);
+  for (const ExternalWrench& wrench : state_.wrenches) {
+    if (wrench.vehicle == vehicle) hash.add(wrench);
+  }
   return hash.value();
 }
 
 std::uint64_t Simulation::hash() const {
   StateHash hash;
-  hash.add(tick_);
-  for (const VehicleState& state : states_) hash.add(state);
+  hash.add(state_.tick);
+  for (const VehicleState& state : state_.vehicles) hash.add(state);
+  for (const ExternalWrench& wrench : state_.wrenches) hash.add(wrench);
   return hash.value();
 }
 

@@ -103,7 +103,7 @@ TEST(ClosestFeatures, DegenerateCasesEndAndAgreeWithBruteForce) {
                                          quaternionFromAxisAngle(Vector3::UnitX(), 1e-15)};
   const std::vector<Vector3> directions = {{1, 0, 0}, {0, 0, 1}, {1, 1, 0}, {1, 1, 1}, {0.5, 0, 1}};
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
+    for (std::size_t k = i; k < bodies.size(); ++k) {
       const double reach = bodies[i].data().radius + bodies[k].data().radius;
       for (std::size_t turn = 0; turn < turns.size(); ++turn) {
         for (const Vector3& direction : directions) {

@@ -22,7 +22,7 @@ Motion moving(const Vector3& p, const Vector3& v, const Vector3& w = Vector3(0, 
 
 const ImpactMethod kMethods[] = {ImpactMethod::kAdvance, ImpactMethod::kBisection};
 
-// A point thrown up from below... falls from 1 m: it meets the floor at sqrt(2 h / g).
+// A point that falls from 1 m meets the floor at sqrt(2 h / g).
 TEST(VertexPlaneImpact, OfAFallingPointIsTheClosedForm) {
   for (const ImpactMethod method : kMethods) {
     Motion motion = moving(Vector3(0, 0, 1), Vector3(0, 0, 0));
@@ -70,17 +70,19 @@ TEST(TimeOfImpact, ABulletDoesNotTunnelThroughAPlate) {
   }
 }
 
-// A rod of length 2 turns by 170 degrees in the step; a corner stands at angle 90 degrees and
-// radius 0.98: at both ends of the step the rod is far from it.
+// A rod of length 2 turns by 170 degrees in the step; a cube stands on a corner at angle 90 degrees
+// and radius 0.98: at both ends of the step the rod is far from it.
 TEST(TimeOfImpact, ASpinningRodDoesNotPassACorner) {
   const ConvexPolyhedron rod = boxPolyhedron(Vector3(2, 0.01, 0.01));
   const ConvexPolyhedron cube = boxPolyhedron(Vector3(0.1, 0.1, 0.1));
   Motion corner = moving(Vector3(0, 0.98 + 0.05 * std::sqrt(2.0), 0), Vector3(0, 0, 0));
   corner.q_WB = quaternionFromAxisAngle(Vector3::UnitZ(), kPi / 4);
   const Motion spin = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(0, 0, kPi * 170 / 180));
-  // The leading long side y = 0.005 of the rod reaches the corner (0, 0.98) at 90 degrees less
-  // asin(0.005 / 0.98).
-  const double expected = (kPi / 2 - std::asin(0.005 / 0.98)) / (kPi * 170 / 180);
+  // The rod's leading corner (1, 0.005), at radius r and atan(0.005) ahead of the rod, meets the
+  // side y - x = 0.98 of the cube: r sin b - r cos b = 0.98 at its angle b.
+  const double r = std::sqrt(1.0 + 0.005 * 0.005);
+  const double b = kPi / 4 + std::asin(0.98 / (r * std::sqrt(2.0)));
+  const double expected = (b - std::atan(0.005)) / (kPi * 170 / 180);
   for (const ImpactMethod method : kMethods) {
     const TimeOfImpact impact = timeOfImpact(rod, spin, cube, corner, {1.0, 1e-8, method});
     ASSERT_EQ(impact.status, ImpactStatus::kImpact);
@@ -94,7 +96,7 @@ TEST(TimeOfImpact, BodiesThatPassEachOtherDoNotMeet) {
   for (const ImpactMethod method : kMethods) {
     const TimeOfImpact impact =
         timeOfImpact(cube, moving(Vector3(-10, 0, 0), Vector3(20, 0, 0)), cube,
-                     moving(Vector3(0, 1.0001, 0), Vector3(0, 0, 0)), {1.0, 1e-6, method});
+                     moving(Vector3(0, 1.001, 0), Vector3(0, 0, 0)), {1.0, 1e-6, method});
     EXPECT_EQ(impact.status, ImpactStatus::kNone);
     EXPECT_EQ(impact.time, 1.0);
   }

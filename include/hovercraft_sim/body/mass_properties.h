@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
@@ -15,8 +16,14 @@ struct MassProperties {
   Matrix3 I_BBo_B = Matrix3::Zero();  // tensor (21) about the centre of mass, kg m²
 };
 
+/// Volumes of solids, m³; lengths in m, as below.
+double boxVolume(const Vector3& size);
+double sphereVolume(double radius);
+double cylinderVolume(double radius, double length);
+double coneVolume(double radius, double length);
+
 /// Homogeneous solids, centred on the origin of H unless said otherwise; lengths in m, mass in kg,
-/// all > 0.
+/// all > 0. With the volume as the mass, the density is 1 kg/m³.
 /// @throws std::invalid_argument naming the number that is not positive and finite.
 MassProperties boxMassProperties(double mass, const Vector3& size);
 /// A solid ball.
@@ -27,21 +34,17 @@ MassProperties cylinderMassProperties(double mass, double radius, double length)
 /// lies at z = -length/4.
 MassProperties coneMassProperties(double mass, double radius, double length);
 
-/// Volumes of the solids above, m³.
-double boxVolume(const Vector3& size);
-double sphereVolume(double radius);
-double cylinderVolume(double radius, double length);
-double coneVolume(double radius, double length);
-
-/// The homogeneous solid inside a closed mesh, in the frame of the mesh: of a total mass in kg, or
-/// of a density in kg/m³.
+/// The homogeneous solid inside a closed surface (it passes checkClosed()); H is the frame of the
+/// mesh. @param mass kg. @throws std::invalid_argument if it is not positive and finite.
 MassProperties meshMassProperties(const TriangleMesh& mesh, double mass);
+/// Likewise. @param density kg/m³.
 MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh, double density);
 
 /// The same solid in a frame G from which H is turned by R_GH and moved by p_GH.
 MassProperties placed(const MassProperties& part, const Matrix3& R_GH, const Vector3& p_GH);
 
-/// Several parts in one frame as one body, by the parallel-axis theorem (Huygens-Steiner).
+/// Several parts in one frame as one body, by the parallel-axis theorem (Huygens-Steiner). A
+/// single part comes back to the last bit.
 /// @throws std::invalid_argument if there are none.
 MassProperties composed(const std::vector<MassProperties>& parts);
 
@@ -49,13 +52,17 @@ MassProperties composed(const std::vector<MassProperties>& parts);
 /// principal moment larger than the sum of the other two.
 /// @throws std::invalid_argument that begins with `name` and names the rule and the number that
 /// breaks it.
-void checkInertia(const Matrix3& I_BBo_B, const char* name);
+void checkInertia(const Matrix3& I_BBo_B, const std::string& name);
 
-/// Principal moments in ascending order and the axes they belong to (columns, right-handed).
+/// Principal moments and axes of a tensor.
 struct PrincipalInertia {
-  Vector3 moments;  // kg m²
-  Matrix3 axes;     // column i: unit axis of moments[i], in B
+  Vector3 moments;  // kg m², ascending
+  Matrix3 axes;     // column i: unit axis of moments[i], in B; right-handed
 };
+/// The sign of the first two axes is chosen so that their first component beyond ±0.57 is positive;
+/// the third is the cross product of those. Where moments are equal, any axes in their plane or
+/// space may come back. For display: the last bits depend on the processor.
+/// @param I_BBo_B passes checkInertia().
 PrincipalInertia principalInertia(const Matrix3& I_BBo_B);
 
 }  // namespace hovercraft

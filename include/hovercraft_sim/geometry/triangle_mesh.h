@@ -22,18 +22,18 @@ struct TriangleMesh {
 /// as STL repeats them; triangles of which two vertices coincide are dropped. The indices follow
 /// the first use of each vertex by a triangle, not the order in the file.
 ///
-/// Assimp keeps coordinates in single precision: a length of the file is exact to 6e-8 of its
-/// largest coordinate, a volume to some 2e-7.
+/// Assimp keeps coordinates in single precision, each exact to 2e-7 of itself (kMeshCoordinate): a
+/// volume computed from them is exact to some 6e-7, less so far from the origin of the file.
 /// @returns a mesh that passes checkClosed().
 /// @throws std::invalid_argument naming the file if it is missing, not readable, not a mesh, or not
 /// closed.
 TriangleMesh loadTriangleMesh(const std::string& path);
 
 /// Checks that a mesh bounds a solid: it has triangles, each edge belongs to exactly two of them
-/// that run through it in opposite directions, and the enclosed volume is positive and larger than
-/// what rounding to single precision leaves. Several shells, hollow bodies (an inner shell that
-/// faces inwards) and shells that touch in a vertex pass; that the surface does not cut itself is
-/// not checked.
+/// that run through it in opposite directions, and the enclosed volume is positive and known to 1 %
+/// (kMeshVolume) in spite of the rounding of coordinates. It may have several shells, also touching
+/// ones; one inside another is the wall of a cavity and must face inwards. That the surface does
+/// not cut itself is not checked.
 /// @param name begins every message, such as "mesh file 'hull.obj'".
 /// @throws std::invalid_argument that says what is wrong and where.
 void checkClosed(const TriangleMesh& mesh, const std::string& name);

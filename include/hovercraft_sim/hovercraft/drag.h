@@ -27,11 +27,9 @@ struct Drag {
 
  private:
   static Vector3 resistance(const Vector3& first, const Vector3& second, const Vector3& rate) {
-    Vector3 result;
-    for (int i = 0; i < 3; ++i) {
-      result[i] = -(first[i] + second[i] * std::abs(rate[i])) * rate[i];
-    }
-    return result;
+    return {-(first.x() + second.x() * std::abs(rate.x())) * rate.x(),
+            -(first.y() + second.y() * std::abs(rate.y())) * rate.y(),
+            -(first.z() + second.z() * std::abs(rate.z())) * rate.z()};
   }
 };
 

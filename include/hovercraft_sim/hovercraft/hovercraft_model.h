@@ -33,15 +33,31 @@ struct HovercraftModel {
   }
 };
 
+/// What pushes a craft from outside during one step, constant in the frame that it is given in.
+struct ExternalLoad {
+  Wrench in_world;  // N and N m about the centre of mass, in W
+  Wrench in_body;   // likewise, in B: turns with the craft
+};
+
 /// A craft during one step: the system that a stepper integrates.
 struct DrivenHovercraft {
   const HovercraftModel& model;
   const ThrustCourse& thrusts;
+  const ExternalLoad* load = nullptr;  // none
 
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
-    return model.derivative(state, thrusts.at(stage));
+    StateDerivative<Orientation> rate = model.derivative(state, thrusts.at(stage));
+    if (load != nullptr) {
+      const Matrix3 R_WB = rotationMatrix(state.orientation);
+      const Wrench pushed =
+          model.mobility.project({load->in_world.force + times(R_WB, load->in_body.force),
+                                  load->in_world.torque + times(R_WB, load->in_body.torque)});
+      rate.force_W += pushed.force;
+      rate.torque_W += pushed.torque;
+    }
+    return rate;
   }
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {

@@ -45,9 +45,16 @@ inline Quaternion normalized(const Quaternion& q) {
   return (1.0 / norm(q)) * q;
 }
 
-/// dq/dt = ½ [0, w_WB] q (27), angular velocity in W, rad/s.
+/// dq/dt = ½ [0, w_WB] q = ½ [-w·v, s w + w × v] (27), angular velocity in W, rad/s. Written out:
+/// every stage of every step needs it, and the product would multiply by the 0.
 inline Quaternion quaternionRateWorld(const Vector3& w_WB, const Quaternion& q_WB) {
-  return 0.5 * (Quaternion{0.0, w_WB} * q_WB);
+  const Vector3& w = w_WB;
+  const double s = q_WB.s;
+  const Vector3& v = q_WB.v;
+  return {-0.5 * dot(w, v),
+          {0.5 * (s * w.x() + (w.y() * v.z() - w.z() * v.y())),
+           0.5 * (s * w.y() + (w.z() * v.x() - w.x() * v.z())),
+           0.5 * (s * w.z() + (w.x() * v.y() - w.y() * v.x()))}};
 }
 
 /// dq/dt = ½ q [0, w_WB_B] (after (27)), angular velocity in B, rad/s.
@@ -66,16 +73,13 @@ inline Matrix3 rotationMatrix(const Quaternion& q_WB) {
   const double x = q_WB.v.x();
   const double y = q_WB.v.y();
   const double z = q_WB.v.z();
+  const double x2 = x + x;
+  const double y2 = y + y;
+  const double z2 = z + z;
   Matrix3 R_WB;
-  R_WB(0, 0) = 1.0 - 2.0 * (y * y + z * z);
-  R_WB(0, 1) = 2.0 * (x * y - s * z);
-  R_WB(0, 2) = 2.0 * (x * z + s * y);
-  R_WB(1, 0) = 2.0 * (x * y + s * z);
-  R_WB(1, 1) = 1.0 - 2.0 * (x * x + z * z);
-  R_WB(1, 2) = 2.0 * (y * z - s * x);
-  R_WB(2, 0) = 2.0 * (x * z - s * y);
-  R_WB(2, 1) = 2.0 * (y * z + s * x);
-  R_WB(2, 2) = 1.0 - 2.0 * (x * x + y * y);
+  R_WB << 1.0 - (y2 * y + z2 * z), x2 * y - z2 * s, x2 * z + y2 * s,  //
+      x2 * y + z2 * s, 1.0 - (x2 * x + z2 * z), y2 * z - x2 * s,      //
+      x2 * z - y2 * s, y2 * z + x2 * s, 1.0 - (x2 * x + y2 * y);
   return R_WB;
 }
 

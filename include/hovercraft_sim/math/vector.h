@@ -35,11 +35,9 @@ inline double norm(const Vector3& a) {
   return std::sqrt(squaredNorm(a));
 }
 
-/// A v
+/// A v, column by column: each component is the sum of its three products from the left.
 inline Vector3 times(const Matrix3& A, const Vector3& v) {
-  return {(A(0, 0) * v.x() + A(0, 1) * v.y()) + A(0, 2) * v.z(),
-          (A(1, 0) * v.x() + A(1, 1) * v.y()) + A(1, 2) * v.z(),
-          (A(2, 0) * v.x() + A(2, 1) * v.y()) + A(2, 2) * v.z()};
+  return (A.col(0) * v.x() + A.col(1) * v.y()) + A.col(2) * v.z();
 }
 
 /// Aᵀ v

@@ -39,12 +39,14 @@ class VehicleMessages {
                   const std::string& world_frame = kDefaultWorldFrame);
 
   /// Fills every message from the simulation as it stands.
-  /// @param stamp the time of its tick.
-  void fill(const hovercraft::Simulation& simulation, const ros::Time& stamp);
+  /// @param stamp the time of its tick. @param episode of the run; 0 for one without resets.
+  void fill(const hovercraft::Simulation& simulation, const ros::Time& stamp,
+            std::uint32_t episode = 0);
 
   /// @param stamp the time of the command's tick.
   hovercraft_sim::AppliedCommand appliedCommand(const hovercraft::Command& command,
-                                                const ros::Time& stamp) const;
+                                                const ros::Time& stamp,
+                                                std::uint32_t episode = 0) const;
 
   /// base_link -> engine_rear, engine_left, engine_right; x along the positive thrust.
   std::vector<geometry_msgs::TransformStamped> engineFrames(const ros::Time& stamp) const;

@@ -47,13 +47,16 @@ class ConfigReader {
   Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
   Vector3 vectorOr(const Vector3& fallback, const char* key,
                    const NumberRule& rule = kAnyNumber) const;
+  bool flagOr(bool fallback, const char* key) const;
   std::string text(const char* key) const;
   /// The index of the text behind `key` among `choices`.
   std::size_t choiceOr(std::size_t fallback, const char* key,
                        const std::vector<std::string>& choices) const;
 
-  /// Throws std::invalid_argument: "source: path.key = value: rule"; the value is left out if there
-  /// is none.
+  /// "source: path.key = value", the beginning of a message; the value is left out if there is
+  /// none, and shortened if it is long.
+  std::string where(const std::string& key) const;
+  /// Throws std::invalid_argument: "source: path.key = value: rule".
   [[noreturn]] void fail(const std::string& key, const std::string& rule) const;
 
   const std::string& source() const { return source_; }

@@ -25,6 +25,24 @@ struct VehicleState {
   EngineStates engines;
 };
 
+/// A wrench that acts on one craft for some steps, besides engines, drag and weight.
+struct ExternalWrench {
+  enum class Frame { kWorld, kBody };
+
+  std::size_t vehicle = 0;
+  Frame frame = Frame::kWorld;
+  Wrench wrench;      // N and N m about the centre of mass
+  Tick end_tick = 0;  // it acts in the steps that begin before this tick
+};
+
+/// Everything that determines the future of a run, besides the scenario and the commands to come.
+struct SimulationState {
+  Tick tick = 0;
+  std::int64_t seed = 1;
+  std::vector<VehicleState> vehicles;    // in the order of the scenario
+  std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
+};
+
 /// Motion of one craft as it is reported; W world, B at the centre of mass.
 struct Motion {
   Vector3 p_WB;                // m
@@ -54,17 +72,35 @@ class Simulation {
   /// Queues a command; one whose tick has passed is a mistake of the caller.
   void push(const Command& command);
 
+  /// Puts a craft somewhere else, with other velocities: from the current tick on. Its engines stay
+  /// as they are.
+  /// @param motion of the body frame B, velocities in W; finite, q_WB a unit quaternion, and
+  /// possible in the scenario's model (the caller has checked).
+  void setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
+                 const Twist& twist);
+
+  /// Adds a wrench from the current tick until its end tick.
+  void applyWrench(const ExternalWrench& wrench);
+
+  /// Back to the scenario's start at tick 0: no command, no wrench is left. @param seed of the new
+  /// run.
+  void reset(std::int64_t seed);
+
+  /// Goes on from a state of the same scenario, at its tick; commands that waited are dropped.
+  void restore(const SimulationState& state);
+  const SimulationState& state() const { return state_; }
+
   /// Applies the commands that are due and moves every craft from tick n to n + 1.
   /// @throws std::logic_error if a state is not finite afterwards: the step is too long for the
   /// forces.
   void step();
 
   const Scenario& scenario() const { return scenario_; }
-  Tick tick() const { return tick_; }
+  Tick tick() const { return state_.tick; }
   /// Simulated time at the current tick, ns.
-  std::int64_t timeNs() const { return tick_ * scenario_.step_ns; }
+  std::int64_t timeNs() const { return state_.tick * scenario_.step_ns; }
 
-  const VehicleState& state(std::size_t vehicle) const { return states_[vehicle]; }
+  const VehicleState& state(std::size_t vehicle) const { return state_.vehicles[vehicle]; }
   Motion motion(std::size_t vehicle) const;
   EngineReport engineReport(std::size_t vehicle, int engine) const;
 
@@ -79,14 +115,14 @@ class Simulation {
  private:
   void applyDueCommands();
   void stepVehicle(std::size_t vehicle);
+  void endWrenches();
 
   Scenario scenario_;
   double h_;  // s
   std::vector<HovercraftModel> models_;
   std::vector<EngineDynamics> engine_dynamics_;
-  std::vector<VehicleState> states_;
+  SimulationState state_;
   CommandLog commands_;
-  Tick tick_ = 0;
 };
 
 }  // namespace hovercraft

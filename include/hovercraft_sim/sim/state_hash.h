@@ -44,6 +44,15 @@ class StateHash {
     }
   }
 
+  /// Vehicle, frame (0 world, 1 body), force, torque, end tick.
+  void add(const ExternalWrench& external) {
+    add(static_cast<std::uint64_t>(external.vehicle));
+    add(static_cast<std::uint64_t>(external.frame));
+    add(external.wrench.force);
+    add(external.wrench.torque);
+    add(external.end_tick);
+  }
+
   std::uint64_t value() const { return value_; }
 
  private:

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <tf2_msgs/TFMessage.h>
+#include <vector>
+
+#include <ros/time.h>
+#include <rosbag/bag.h>
+
+#include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/output_file.h"
+#include "hovercraft_sim/sim/run.h"
+
+namespace hovercraft_ros {
+
+/// Writes a run into a bag with the topics of the node (design: ROS interface), stamped and
+/// received at n·h. ROS takes time 0 for no time: the state of tick 0 is left out, and what takes
+/// effect then (commands, static transforms, the scenario) is recorded at tick 1.
+class BagWriter : public hovercraft::StateSink {
+ public:
+  /// @throws std::invalid_argument if the file cannot be opened for writing.
+  BagWriter(const std::string& path, const hovercraft::Scenario& scenario);
+  ~BagWriter() override;
+
+  void state(const hovercraft::Simulation& simulation) override;
+  void applied(const hovercraft::Command& command) override;
+  void close() override;
+
+ private:
+  ros::Time stampOfTick(hovercraft::Tick tick) const;
+  std::string topic(const VehicleMessages& messages, const char* name) const;
+  void writeConstants(const hovercraft::Scenario& scenario);
+  template <class Message>
+  void write(const std::string& topic, const ros::Time& stamp, const Message& message,
+             bool latched = false);
+
+  hovercraft::PartialFile file_;
+  std::unique_ptr<rosbag::Bag> bag_;
+  std::int64_t step_ns_;
+  std::vector<VehicleMessages> vehicles_;
+  tf2_msgs::TFMessage transforms_;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/time.h>
+
+namespace hovercraft_ros {
+
+/// Publishes simulated time on /clock, seldom enough for Python nodes: once per period of simulated
+/// time, and never more often than NodeConfig::kMaxClockRate of wall time. Never time 0, which ROS
+/// takes for "no time".
+class ClockSource {
+ public:
+  /// @param rate Hz of simulated time.
+  ClockSource(ros::NodeHandle handle, double rate);
+
+  /// @param is_idle the simulation waits: whoever sleeps on simulated time must see where it
+  /// stands.
+  void publishIfDue(const ros::Time& stamp, std::int64_t now_ns, bool is_idle);
+
+ private:
+  ros::Publisher publisher_;
+  std::int64_t period_ns_;
+  ros::Time last_stamp_;
+  std::int64_t last_wall_ns_ = 0;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <hovercraft_sim/State.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+
+#include "hovercraft_sim/math/vector.h"
+#include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft_ros {
+
+/// Plays commands into a live simulation as ThrustCommand messages, on simulated time: it listens
+/// to the ticks of the state topic, so that it keeps to the manoeuvre at any pace. Tick 0 of the
+/// commands is the first state that it hears. The last thrusts are repeated well within the
+/// time-outs of the engines.
+class CommandPlayer {
+ public:
+  /// @param handle of the namespace that the craft's namespaces lie in.
+  /// @param settle_ns simulated time to wait after the last command, with the thrusts held, ns.
+  /// @param wanted_subscribers of each thrust topic before it begins: the simulation, and whoever
+  /// records.
+  CommandPlayer(const ros::NodeHandle& handle, const hovercraft::Scenario& scenario,
+                std::unique_ptr<hovercraft::CommandSource> source, std::int64_t settle_ns,
+                std::uint32_t wanted_subscribers);
+
+  /// Everything was played and the settling time is over.
+  bool isDone() const { return done_; }
+
+ private:
+  void onState(const hovercraft_sim::State& state);
+  void takeDue(hovercraft::Tick tick);
+  void send(const ros::Time& stamp);
+  bool allConnected() const;
+
+  std::unique_ptr<hovercraft::CommandSource> source_;
+  std::optional<hovercraft::Command> next_;
+  hovercraft::Tick settle_ticks_;
+  hovercraft::Tick repeat_ticks_;
+  std::uint32_t wanted_subscribers_;
+  std::vector<ros::Publisher> publishers_;  // by vehicle
+  std::vector<hovercraft::Vector3> thrusts_;
+  std::vector<bool> commanded_;
+  ros::Subscriber state_subscriber_;
+  std::optional<hovercraft::Tick> start_;  // of the simulation when the player began
+  hovercraft::Tick last_command_ = 0;
+  hovercraft::Tick last_sent_ = 0;
+  bool done_ = false;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <hovercraft_sim/RunEvent.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/wall_timer.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "hovercraft_sim/ros/clock_source.h"
+#include "hovercraft_sim/ros/live_run.h"
+#include "hovercraft_sim/ros/lockstep.h"
+#include "hovercraft_sim/ros/node_config.h"
+#include "hovercraft_sim/ros/pace_report.h"
+#include "hovercraft_sim/ros/pacer.h"
+#include "hovercraft_sim/ros/vehicle_interface.h"
+#include "hovercraft_sim/ros/warning_limiter.h"
+
+namespace hovercraft_ros {
+
+/// The simulation behind ROS topics. One thread, the caller of run(), handles callbacks and steps
+/// the world; between steps it waits on the callback queue, so that a message or a service is
+/// handled at once, also while the simulation is paused.
+class HovercraftNode {
+ public:
+  /// @param handle of the namespace that the craft's namespaces lie in. @param private_handle the
+  /// node's own.
+  HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                 NodeConfig config);
+  HovercraftNode(const HovercraftNode&) = delete;
+  HovercraftNode& operator=(const HovercraftNode&) = delete;
+
+  /// Steps at the wanted pace until ROS is shut down.
+  void run();
+
+  // Control, from callbacks of run()'s thread.
+  void pause() { paused_ = true; }
+  void resume();
+  bool isPaused() const { return paused_; }
+  const NodeConfig& config() const { return config_; }
+  const LiveRun& liveRun() const { return run_; }
+  /// @param real_time_factor 0 or greater; 0: as fast as it can.
+  void setRealTimeFactor(double real_time_factor);
+  /// Steps now, whatever the pace.
+  void stepPaused(std::uint32_t steps);
+  /// Applies and publishes an event. @throws std::invalid_argument as applyEvent(); nothing has
+  /// changed then.
+  void apply(const hovercraft_sim::RunEvent& event);
+
+ private:
+  void publishConstants();
+  void restartPace();
+  bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
+  std::int64_t waitNs(std::int64_t now_ns) const;
+  void advance();
+  bool isStepDue(std::int64_t now_ns) const;
+  void stepOnce();
+  void publishState();
+  void noticeSilence(std::int64_t now_ns);
+  void report();
+  void reportCommands(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t vehicle);
+
+  NodeConfig config_;
+  LiveRun run_;
+  Lockstep lockstep_;
+  std::optional<Pacer> pacer_;  // none: as fast as it can
+  std::optional<ClockSource> clock_;
+  bool paused_;
+  std::vector<std::unique_ptr<VehicleInterface>> vehicles_;
+  ros::Publisher scenario_, events_, telemetry_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  std::vector<geometry_msgs::TransformStamped> transform_batch_;
+
+  PaceReport pace_;
+  hovercraft_sim::Telemetry telemetry_message_;
+  std::int64_t waiting_since_ns_ = 0;  // for the commands of a lockstep period
+  WarningLimiter behind_warnings_;
+  WarningLimiter silence_warnings_;
+  std::vector<std::uint64_t> reported_drops_;
+  std::vector<std::uint64_t> reported_saturations_;
+  diagnostic_updater::Updater diagnostics_;
+  ros::WallTimer report_timer_;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include <hovercraft_sim/RunEvent.h>
+#include <ros/time.h>
+
+#include "hovercraft_sim/sim/simulation.h"
+
+namespace hovercraft_ros {
+
+/// A simulation in ROS time: ticks, episodes and stamps. Stamps are epoch + n·h and never go back:
+/// a reset or a load begins an episode with ticks of its own, whose epoch is chosen so that time
+/// goes on from where it was.
+class LiveRun {
+ public:
+  /// @param epoch_ns ROS time of tick 0 of the first episode, ns.
+  LiveRun(hovercraft::Scenario scenario, std::int64_t epoch_ns);
+
+  hovercraft::Simulation& simulation() { return simulation_; }
+  const hovercraft::Simulation& simulation() const { return simulation_; }
+  std::uint32_t episode() const { return episode_; }
+
+  /// ROS time of the current tick.
+  ros::Time stamp() const { return stampOf(simulation_.tick()); }
+  ros::Time stampOf(hovercraft::Tick tick) const;
+
+  /// Applies an event at the current tick (run_events.h) and returns it with its header, tick and
+  /// episode.
+  /// @throws std::invalid_argument as applyEvent(); nothing has changed then.
+  hovercraft_sim::RunEvent apply(hovercraft_sim::RunEvent event);
+
+ private:
+  hovercraft::Simulation simulation_;
+  std::int64_t epoch_ns_;  // of tick 0 of this episode; below 0 after a load of a long run
+  std::uint32_t episode_ = 0;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <hovercraft_sim/EngineStatus.h>
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <ros/wall_timer.h>
+#include <std_msgs/String.h>
+
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft_ros {
+
+/// Draws every craft of a running or replayed simulation: listens to the latched scenario, then to
+/// pose and engines of each craft, and publishes one MarkerArray for all of them. The simulation
+/// knows nothing of it.
+class MarkersNode {
+ public:
+  MarkersNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+ private:
+  struct Craft {
+    hovercraft::VehicleScenario description;
+    std::string world_frame;
+    hovercraft_sim::EngineStatus engines;
+    std::vector<geometry_msgs::Point> path;
+    std::vector<ros::Subscriber> subscribers;
+  };
+
+  void onScenario(const std_msgs::String& message);
+  void watch(const hovercraft::VehicleScenario& description);
+  static void extendPath(Craft& craft, const geometry_msgs::PoseStamped& pose);
+  void publish();
+
+  ros::NodeHandle handle_;
+  ros::Publisher publisher_;
+  ros::Subscriber scenario_subscriber_;
+  ros::WallTimer timer_;
+  std::vector<std::unique_ptr<Craft>> craft_;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <yaml-cpp/yaml.h>
+
+#include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft_ros {
+
+/// The node's private parameters, checked.
+struct NodeConfig {
+  hovercraft::Scenario scenario;
+  hovercraft::Tick publish_every = 1;  // ticks from one published state to the next
+  std::string world_frame;
+  double real_time_factor = 1.0;  // simulated per wall time; 0: as fast as it can
+  bool paused = false;            // at the start
+  bool clock = false;             // publish /clock and be the time source, from time 0
+  double clock_rate = 100.0;      // Hz of simulated time; never above kMaxClockRate of wall time
+  bool lockstep = false;
+  hovercraft::Tick control_period = 1;  // ticks between two commands in lockstep
+  double lockstep_timeout = 5.0;        // s of wall time until a silent vehicle is named
+
+  static constexpr double kMaxClockRate =
+      250.0;  // Hz: each message costs every Python node some CPU
+};
+
+/// @param parameters the node's private namespace as a tree: `scenario` (design: scenario file),
+/// `publish_rate` in Hz (a divisor of the step rate; default the nearest to 100),
+/// `control_period` in s (a multiple of the step size; default the publish period), and what the
+/// other members of NodeConfig are called.
+/// @param node_name begins every error.
+/// @throws std::invalid_argument that names the parameter, its value and the rule.
+NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name);
+
+}  // namespace hovercraft_ros

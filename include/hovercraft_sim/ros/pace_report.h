@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+#include <hovercraft_sim/Telemetry.h>
+
+#include "hovercraft_sim/ros/duration_histogram.h"
+
+namespace hovercraft_ros {
+
+/// How a run kept its pace since the last report.
+class PaceReport {
+ public:
+  /// @param lateness_ns from the deadline of the step to its start; @param duration_ns of the step
+  /// with what it published;
+  /// @param is_late it began more than a step size late.
+  void addStep(std::int64_t lateness_ns, std::int64_t duration_ns, bool is_late);
+  void addGivenUp(std::int64_t wall_ns) { given_up_ns_ += wall_ns; }
+  std::int64_t givenUp() const { return given_up_ns_; }
+
+  /// Begins the next report at this wall time.
+  void restart(std::int64_t now_ns);
+
+  /// Fills the figures of the report; who and when is left to the caller.
+  /// @param step_ns simulated time of a step.
+  void fill(hovercraft_sim::Telemetry& telemetry, std::int64_t now_ns, std::int64_t step_ns) const;
+
+ private:
+  DurationHistogram step_times_;
+  DurationHistogram lateness_;
+  std::uint64_t late_steps_ = 0;
+  std::int64_t given_up_ns_ = 0;
+  std::int64_t begin_ns_ = 0;
+};
+
+/// The same figures for /diagnostics.
+void toDiagnostics(const hovercraft_sim::Telemetry& telemetry,
+                   diagnostic_updater::DiagnosticStatusWrapper& status);
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <ostream>
+
+namespace hovercraft_ros {
+
+/// A line on a terminal that shows how much is done; it is drawn at most ten times a second.
+class ProgressBar {
+ public:
+  /// @param whole what counts as all done, > 0.
+  ProgressBar(std::ostream& terminal, std::int64_t whole);
+  /// Wipes the line.
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(std::int64_t done);
+
+ private:
+  std::ostream& terminal_;
+  std::int64_t whole_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+#include <visualization_msgs/Marker.h>
+
+#include <geometry_msgs/Point.h>
+#include <hovercraft_sim/EngineStatus.h>
+
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft_ros {
+
+/// What RViz shows of one craft, made from its scenario. Markers in base_link are locked to that
+/// frame: tf moves them.
+
+/// The box of uniform density that has the mass and the inertia of a craft described by numbers;
+/// edges in m.
+hovercraft::Vector3 equivalentBox(const hovercraft::MassProperties& body);
+
+/// Hull (its parts, or the equivalent box), bow and engines, in base_link.
+std::vector<visualization_msgs::Marker> craftMarkers(const hovercraft::VehicleScenario& craft);
+
+/// An arrow per engine along the force that it exerts on the craft; its length grows with the
+/// applied thrust. Red while the command is saturated, else orange.
+std::vector<visualization_msgs::Marker> thrustMarkers(const hovercraft::VehicleScenario& craft,
+                                                      const hovercraft_sim::EngineStatus& engines);
+
+/// The way that base_link came, a line in the world frame.
+visualization_msgs::Marker pathMarker(const hovercraft::VehicleScenario& craft,
+                                      const std::string& world_frame,
+                                      const std::vector<geometry_msgs::Point>& path);
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/csv_reader.h"
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft {
+
+/// Commands from a CSV file with the header `time,rear,left,right` (one vehicle) or
+/// `time,vehicle,rear,left,right`: seconds, never decreasing, and thrusts in N. A row takes effect
+/// at the first tick with t >= time and holds until the next one; it is not for an engine whose
+/// field is empty.
+class CsvCommandSource : public CommandSource {
+ public:
+  /// @throws std::invalid_argument if the file cannot be read or its header is not right for the
+  /// scenario.
+  CsvCommandSource(const std::string& path, const Scenario& scenario);
+
+  std::optional<Command> next() override;
+
+ private:
+  std::size_t vehicleOfRow() const;
+
+  CsvReader reader_;
+  std::int64_t step_ns_;
+  std::vector<std::string> vehicles_;
+  bool has_vehicle_column_;
+  std::int64_t last_time_ns_ = 0;
+};
+
+}  // namespace hovercraft

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace hovercraft {
+
+/// The name under which a file is written until it is whole: a run that fails leaves
+/// `NAME.partial`, never a truncated `NAME`. A pipe or a device is written to directly.
+class PartialFile {
+ public:
+  explicit PartialFile(const std::string& path);
+
+  /// Where to write.
+  const std::string& path() const { return partial_path_; }
+  /// Gives the file its name, in the place of one that has it.
+  /// @throws std::invalid_argument if that cannot be done.
+  void commit() const;
+
+ private:
+  std::string path_;
+  std::string partial_path_;  // the path itself where the file is written to directly
+};
+
+/// A file that is written from its beginning to its end.
+class OutputFile {
+ public:
+  /// @param path `-` is the standard output.
+  /// @throws std::invalid_argument if it cannot be opened for writing.
+  explicit OutputFile(const std::string& path);
+
+  /// @throws std::invalid_argument with the system's reason if it cannot be written.
+  void write(const char* data, std::size_t size);
+  /// Everything has been written: the file gets its name.
+  /// @throws std::invalid_argument as write().
+  void close();
+
+ private:
+  struct Closer {
+    void operator()(std::FILE* file) const;
+  };
+
+  [[noreturn]] void fail() const;
+
+  std::string shown_path_;
+  std::unique_ptr<PartialFile> partial_;  // none for the standard output
+  std::unique_ptr<std::FILE, Closer> file_;
+};
+
+}  // namespace hovercraft

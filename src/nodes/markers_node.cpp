@@ -1,0 +1,20 @@
+#include "hovercraft_sim/ros/markers_node.h"
+
+#include <exception>
+
+#include <ros/console.h>
+#include <ros/init.h>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "hovercraft_markers");
+  // The last handle takes the console with it: this one is there until an error has been reported.
+  const ros::NodeHandle handle;
+  try {
+    const hovercraft_ros::MarkersNode node{handle, ros::NodeHandle("~")};
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

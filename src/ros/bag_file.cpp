@@ -1,0 +1,36 @@
+#include "hovercraft_sim/ros/bag_file.h"
+
+#include <filesystem>
+#include <fmt/format.h>
+#include <fstream>
+#include <stdexcept>
+
+namespace hovercraft_ros {
+
+bool isBag(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  const std::string magic = "#ROSBAG ";
+  std::string begin(magic.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(&begin[0], static_cast<std::streamsize>(begin.size()));
+  return begin == magic;
+}
+
+void openForReading(rosbag::Bag& bag, const std::string& path) {
+  try {
+    bag.open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw std::invalid_argument(path + ": the bag has no index; it was not closed: rosbag reindex");
+  } catch (const rosbag::BagException& error) {
+    throw std::invalid_argument(fmt::format("{}: cannot be read as a bag: {}", path, error.what()));
+  }
+}
+
+void failAt(const std::string& path, const rosbag::MessageInstance& message,
+            const std::string& rule) {
+  const ros::Time& stamp = message.getTime();
+  throw std::invalid_argument(
+      fmt::format("{}: {} at {}.{:09}: {}", path, message.getTopic(), stamp.sec, stamp.nsec, rule));
+}
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,124 @@
+#include "hovercraft_sim/ros/bag_writer.h"
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <fmt/format.h>
+#include <stdexcept>
+
+#include <ros/datatypes.h>
+#include <ros/message_traits.h>
+#include <std_msgs/String.h>
+
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+namespace hovercraft_ros {
+namespace {
+
+constexpr const char* kScenarioTopic = "/hovercraft_sim/scenario";  // the node's ~scenario
+
+std::invalid_argument writeError(const std::string& path, const rosbag::BagException& error) {
+  return std::invalid_argument(fmt::format("{}: cannot be written: {}", path, error.what()));
+}
+
+/// The header of a latched topic, so that rosbag play latches it again.
+template <class Message>
+boost::shared_ptr<ros::M_string> latchedHeader(const Message& message) {
+  auto header = boost::make_shared<ros::M_string>();
+  (*header)["type"] = ros::message_traits::datatype(message);
+  (*header)["md5sum"] = ros::message_traits::md5sum(message);
+  (*header)["message_definition"] = ros::message_traits::definition(message);
+  (*header)["latching"] = "1";
+  return header;
+}
+
+}  // namespace
+
+BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenario)
+    : file_(path), bag_(std::make_unique<rosbag::Bag>()), step_ns_(scenario.step_ns) {
+  for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
+    vehicles_.emplace_back(scenario, vehicle);
+  }
+  try {
+    bag_->open(file_.path(), rosbag::bagmode::Write);
+  } catch (const rosbag::BagException& error) {
+    throw writeError(file_.path(), error);
+  }
+  writeConstants(scenario);
+}
+
+BagWriter::~BagWriter() {
+  if (!bag_) return;
+  try {
+    bag_->close();
+  } catch (const rosbag::BagException&) {
+    // The destructor of rosbag::Bag closes again, and would throw again; the disk is full, the
+    // error was reported, and the memory goes with the process.
+    static_cast<void>(bag_.release());
+  }
+}
+
+ros::Time BagWriter::stampOfTick(hovercraft::Tick tick) const {
+  return stampOf(ros::Time(), std::max<hovercraft::Tick>(tick, 1) * step_ns_);
+}
+
+std::string BagWriter::topic(const VehicleMessages& messages, const char* name) const {
+  return "/" + messages.name() + "/" + name;
+}
+
+template <class Message>
+void BagWriter::write(const std::string& topic, const ros::Time& stamp, const Message& message,
+                      bool latched) {
+  try {
+    bag_->write(topic, stamp, message,
+                latched ? latchedHeader(message) : boost::shared_ptr<ros::M_string>());
+  } catch (const rosbag::BagException& error) {
+    throw writeError(file_.path(), error);
+  }
+}
+
+void BagWriter::writeConstants(const hovercraft::Scenario& scenario) {
+  const ros::Time stamp = stampOfTick(1);
+  std_msgs::String text;
+  text.data = hovercraft::toYaml(scenario);
+  write(kScenarioTopic, stamp, text, true);
+  tf2_msgs::TFMessage frames;
+  for (const VehicleMessages& messages : vehicles_) {
+    const auto engines = messages.engineFrames(stamp);
+    frames.transforms.insert(frames.transforms.end(), engines.begin(), engines.end());
+  }
+  write("/tf_static", stamp, frames, true);
+}
+
+void BagWriter::state(const hovercraft::Simulation& simulation) {
+  if (simulation.tick() == 0) return;
+  const ros::Time stamp = stampOfTick(simulation.tick());
+  transforms_.transforms.clear();
+  for (VehicleMessages& messages : vehicles_) {
+    messages.fill(simulation, stamp);
+    write(topic(messages, kPoseTopic), stamp, messages.pose());
+    write(topic(messages, kTwistTopic), stamp, messages.twist());
+    write(topic(messages, kOdomTopic), stamp, messages.odom());
+    write(topic(messages, kEnginesTopic), stamp, messages.engines());
+    write(topic(messages, kStateTopic), stamp, messages.state());
+    transforms_.transforms.push_back(messages.transform());
+  }
+  write("/tf", stamp, transforms_);
+}
+
+void BagWriter::applied(const hovercraft::Command& command) {
+  const VehicleMessages& messages = vehicles_[command.vehicle];
+  const ros::Time stamp = stampOfTick(command.tick);
+  write(topic(messages, kCommandsTopic), stamp, messages.appliedCommand(command, stamp));
+}
+
+void BagWriter::close() {
+  try {
+    bag_->close();
+  } catch (const rosbag::BagException& error) {
+    throw writeError(file_.path(), error);
+  }
+  bag_.reset();
+  file_.commit();
+}
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,87 @@
+#include "hovercraft_sim/ros/command_player.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <hovercraft_sim/ThrustCommand.h>
+#include <ros/transport_hints.h>
+
+#include "hovercraft_sim/ros/vehicle_messages.h"
+
+namespace hovercraft_ros {
+namespace {
+
+constexpr std::int64_t kRepeatNs = 50000000;  // a tenth of the default time-out
+constexpr std::uint32_t kQueue = 100;
+
+}  // namespace
+
+CommandPlayer::CommandPlayer(const ros::NodeHandle& handle, const hovercraft::Scenario& scenario,
+                             std::unique_ptr<hovercraft::CommandSource> source,
+                             std::int64_t settle_ns, std::uint32_t wanted_subscribers)
+    : source_(std::move(source)),
+      next_(source_->next()),
+      settle_ticks_(hovercraft::firstTickAt(settle_ns, scenario.step_ns)),
+      repeat_ticks_(std::max<hovercraft::Tick>(1, kRepeatNs / scenario.step_ns)),
+      wanted_subscribers_(wanted_subscribers),
+      thrusts_(scenario.vehicles.size(), hovercraft::Vector3::Zero()),
+      commanded_(scenario.vehicles.size(), false) {
+  for (const hovercraft::VehicleScenario& craft : scenario.vehicles) {
+    ros::NodeHandle own(handle, craft.name);
+    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kQueue));
+  }
+  ros::NodeHandle first(handle, scenario.vehicles.front().name);
+  state_subscriber_ = first.subscribe(kStateTopic, kQueue, &CommandPlayer::onState, this,
+                                      ros::TransportHints().tcpNoDelay());
+}
+
+bool CommandPlayer::allConnected() const {
+  return std::all_of(publishers_.begin(), publishers_.end(),
+                     [this](const ros::Publisher& publisher) {
+                       return publisher.getNumSubscribers() >= wanted_subscribers_;
+                     });
+}
+
+void CommandPlayer::onState(const hovercraft_sim::State& state) {
+  const auto now = static_cast<hovercraft::Tick>(state.tick);
+  if (!start_) {
+    if (!allConnected()) return;
+    start_ = now;
+    last_sent_ = now;
+  }
+  const hovercraft::Tick before = last_command_;
+  takeDue(now - *start_);
+  if (last_command_ != before || now - last_sent_ >= repeat_ticks_ || now == *start_) {
+    send(state.header.stamp);
+    last_sent_ = now;
+  }
+  done_ = !next_ && now - *start_ >= last_command_ + settle_ticks_;
+}
+
+void CommandPlayer::takeDue(hovercraft::Tick tick) {
+  while (next_ && next_->tick <= tick) {
+    for (int i = 0; i < hovercraft::kEngineCount; ++i) {
+      const auto engine = static_cast<hovercraft::EngineId>(i);
+      if ((next_->engines & hovercraft::maskOf(engine)) != 0) {
+        thrusts_[next_->vehicle][i] = next_->thrusts[i];
+      }
+    }
+    commanded_[next_->vehicle] = true;
+    last_command_ = next_->tick;
+    next_ = source_->next();
+  }
+}
+
+void CommandPlayer::send(const ros::Time& stamp) {
+  for (std::size_t vehicle = 0; vehicle < publishers_.size(); ++vehicle) {
+    if (!commanded_[vehicle]) continue;
+    hovercraft_sim::ThrustCommand command;
+    command.header.stamp = stamp;
+    command.rear = thrusts_[vehicle][0];
+    command.left = thrusts_[vehicle][1];
+    command.right = thrusts_[vehicle][2];
+    publishers_[vehicle].publish(command);
+  }
+}
+
+}  // namespace hovercraft_ros

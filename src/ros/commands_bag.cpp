@@ -1,0 +1,201 @@
+#include "hovercraft_sim/ros/commands_bag.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <memory>
+#include <set>
+#include <stdexcept>
+
+#include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/ThrustCommand.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <std_msgs/Float64.h>
+
+#include "hovercraft_sim/ros/bag_file.h"
+#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
+
+namespace hovercraft_ros {
+
+using hovercraft::Command;
+using hovercraft::kEngineNames;
+using hovercraft::Tick;
+
+namespace {
+
+std::set<std::string> topicsIn(rosbag::View& view) {
+  std::set<std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    topics.insert(connection->topic);
+  }
+  return topics;
+}
+
+/// What is needed to make a message of one vehicle a command.
+struct VehicleTopics {
+  std::size_t vehicle;
+  std::string applied;               // AppliedCommand
+  std::string thrust;                // ThrustCommand
+  std::vector<std::string> engines;  // Float64 of rear, left, right
+};
+
+std::vector<VehicleTopics> topicsOf(const hovercraft::Scenario& scenario) {
+  std::vector<VehicleTopics> all;
+  for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
+    const std::string space = "/" + scenario.vehicles[vehicle].name + "/";
+    VehicleTopics topics{vehicle, space + kCommandsTopic, space + kThrustTopic, {}};
+    for (const char* engine : kEngineNames) topics.engines.push_back(topics.thrust + "/" + engine);
+    all.push_back(topics);
+  }
+  return all;
+}
+
+/// The commands of one vehicle, in the order in which the bag holds them.
+class VehicleStream {
+ public:
+  VehicleStream(std::string path, const rosbag::Bag& bag, VehicleTopics topics,
+                const std::vector<std::string>& chosen, std::int64_t step_ns, ros::Time begin)
+      : path_(std::move(path)),
+        topics_(std::move(topics)),
+        step_ns_(step_ns),
+        begin_(begin),
+        view_(std::make_unique<rosbag::View>(bag, rosbag::TopicQuery(chosen))),
+        next_(view_->begin()) {
+    advance();
+  }
+
+  const std::optional<Command>& head() const { return head_; }
+
+  void advance() {
+    const Tick last = head_ ? head_->tick : 0;
+    head_.reset();
+    if (next_ == view_->end()) return;
+    const rosbag::MessageInstance& message = *next_;
+    head_ = commandOf(message);
+    if (head_->tick < last) {
+      failAt(path_, message,
+             fmt::format("the command is for tick {}: must not be before tick {} of the one that "
+                         "precedes it",
+                         head_->tick, last));
+    }
+    ++next_;
+  }
+
+ private:
+  Command commandOf(const rosbag::MessageInstance& message) const {
+    if (message.getTopic() == topics_.applied) return appliedOf(message);
+    const std::int64_t time_ns = (message.getTime() - begin_).toNSec();
+    const Tick tick = hovercraft::firstTickAt(time_ns, step_ns_);
+    std::optional<Command> command;
+    if (message.getTopic() == topics_.thrust) {
+      command = toCommand(*messageAs<hovercraft_sim::ThrustCommand>(path_, message),
+                          topics_.vehicle, tick);
+    } else {
+      const auto engine = static_cast<int>(
+          std::find(topics_.engines.begin(), topics_.engines.end(), message.getTopic()) -
+          topics_.engines.begin());
+      command = toCommand(messageAs<std_msgs::Float64>(path_, message)->data,
+                          static_cast<hovercraft::EngineId>(engine), topics_.vehicle, tick);
+    }
+    if (!command) failAt(path_, message, "a thrust must be finite");
+    return *command;
+  }
+
+  Command appliedOf(const rosbag::MessageInstance& instance) const {
+    const auto message = messageAs<hovercraft_sim::AppliedCommand>(path_, instance);
+    if (message->tick > static_cast<std::uint64_t>(std::numeric_limits<Tick>::max())) {
+      failAt(path_, instance, fmt::format("tick = {}: must fit 63 bits", message->tick));
+    }
+    if (message->engines == 0 || message->engines > hovercraft::kAllEngines) {
+      failAt(path_, instance, fmt::format("engines = {}: must be 1 to 7", message->engines));
+    }
+    const Command command = toCommand(*message, topics_.vehicle);
+    if (!command.thrusts.allFinite()) failAt(path_, instance, "a thrust must be finite");
+    return command;
+  }
+
+  std::string path_;
+  VehicleTopics topics_;
+  std::int64_t step_ns_;
+  ros::Time begin_;
+  std::unique_ptr<rosbag::View> view_;
+  rosbag::View::iterator next_;
+  std::optional<Command> head_;
+};
+
+}  // namespace
+
+class BagCommandSource::Streams {
+ public:
+  Streams(const std::string& path, const hovercraft::Scenario& scenario) {
+    openForReading(bag_, path);
+    rosbag::View everything(bag_);
+    const std::set<std::string> present = topicsIn(everything);
+    const std::vector<VehicleTopics> all = topicsOf(scenario);
+    const bool has_applied = std::any_of(all.begin(), all.end(), [&](const VehicleTopics& topics) {
+      return present.count(topics.applied) > 0;
+    });
+    for (const VehicleTopics& topics : all) {
+      std::vector<std::string> wanted = {topics.applied};
+      if (!has_applied) {
+        wanted = topics.engines;
+        wanted.push_back(topics.thrust);
+      }
+      std::vector<std::string> chosen;
+      std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(chosen),
+                   [&](const std::string& topic) { return present.count(topic) > 0; });
+      if (chosen.empty()) continue;
+      chosen_.insert(chosen_.end(), chosen.begin(), chosen.end());
+      streams_.push_back(std::make_unique<VehicleStream>(
+          path, bag_, topics, chosen, scenario.step_ns, everything.getBeginTime()));
+    }
+    if (streams_.empty()) {
+      throw std::invalid_argument(
+          fmt::format("{}: there are no commands in it: must have {}, or {} or one of its engines",
+                      path, all.front().applied, all.front().thrust));
+    }
+    description_ = fmt::format("{}", fmt::join(chosen_, ", "));
+  }
+
+  std::optional<Command> next() {
+    VehicleStream* first = nullptr;
+    for (const auto& stream : streams_) {
+      if (!stream->head()) continue;
+      if (first == nullptr || stream->head()->tick < first->head()->tick) first = stream.get();
+    }
+    if (first == nullptr) return std::nullopt;
+    const std::optional<Command> command = first->head();
+    first->advance();
+    return command;
+  }
+
+  const std::string& description() const { return description_; }
+
+ private:
+  rosbag::Bag bag_;
+  std::vector<std::unique_ptr<VehicleStream>> streams_;
+  std::vector<std::string> chosen_;
+  std::string description_;
+};
+
+BagCommandSource::BagCommandSource(const std::string& path, const hovercraft::Scenario& scenario)
+    : path_(path), streams_(std::make_unique<Streams>(path, scenario)) {}
+
+BagCommandSource::~BagCommandSource() = default;
+
+std::optional<Command> BagCommandSource::next() {
+  try {
+    return streams_->next();
+  } catch (const rosbag::BagException& error) {
+    throw std::invalid_argument(fmt::format("{}: cannot be read: {}", path_, error.what()));
+  }
+}
+
+const std::string& BagCommandSource::description() const {
+  return streams_->description();
+}
+
+}  // namespace hovercraft_ros

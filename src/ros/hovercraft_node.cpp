@@ -1,0 +1,231 @@
+#include "hovercraft_sim/ros/hovercraft_node.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <ros/callback_queue.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <std_msgs/String.h>
+
+#include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+namespace hovercraft_ros {
+namespace {
+
+constexpr double kReportPeriod = 1.0;           // s of wall time
+constexpr std::int64_t kIdleWaitNs = 4000000;   // how soon an idle node looks at its clock again
+constexpr std::int64_t kStepSliceNs = 2000000;  // of stepping between two looks at the callbacks
+constexpr std::uint32_t kEventQueue = 1000;     // every event belongs in a recording
+constexpr std::uint32_t kTelemetryQueue = 10;
+
+/// ROS time of tick 0: 0 where this node makes the time, else the wall time of its start.
+std::int64_t epochOf(const NodeConfig& config) {
+  return config.clock ? 0 : static_cast<std::int64_t>(ros::WallTime::now().toNSec());
+}
+
+}  // namespace
+
+HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                               NodeConfig config)
+    : config_(std::move(config)),
+      run_(config_.scenario, epochOf(config_)),
+      lockstep_(config_.scenario.vehicles.size()),
+      paused_(config_.paused),
+      reported_drops_(config_.scenario.vehicles.size()),
+      reported_saturations_(config_.scenario.vehicles.size()),
+      diagnostics_(handle, private_handle) {
+  ros::NodeHandle own(private_handle);
+  for (std::size_t i = 0; i < config_.scenario.vehicles.size(); ++i) {
+    const auto take = [this, i](const hovercraft::Command& command,
+                                const std::optional<ros::Time>& stamp) -> const char* {
+      const char* refusal = config_.lockstep ? lockstep_.offer(i, stamp) : nullptr;
+      if (refusal == nullptr) run_.simulation().push(command);
+      return refusal;
+    };
+    vehicles_.push_back(
+        std::make_unique<VehicleInterface>(handle, run_, i, config_.world_frame, take));
+    diagnostics_.add(config_.scenario.vehicles[i].name + ": commands",
+                     [this, i](diagnostic_updater::DiagnosticStatusWrapper& status) {
+                       reportCommands(status, i);
+                     });
+  }
+  run_.simulation().on_applied = [this](const hovercraft::Command& command) {
+    vehicles_[command.vehicle]->publishApplied(command);
+  };
+  scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
+  events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
+  telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
+  if (config_.clock) clock_.emplace(handle, config_.clock_rate);
+  publishConstants();
+
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("pace", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    toDiagnostics(telemetry_message_, status);
+  });
+  report_timer_ =
+      own.createWallTimer(ros::WallDuration(own.param("diagnostic_period", kReportPeriod)),
+                          [this](const ros::WallTimerEvent&) { report(); });
+  setRealTimeFactor(config_.real_time_factor);
+}
+
+void HovercraftNode::publishConstants() {
+  std_msgs::String text;
+  text.data = hovercraft::toYaml(config_.scenario);
+  scenario_.publish(text);
+  std::vector<geometry_msgs::TransformStamped> frames;
+  for (const auto& vehicle : vehicles_) {
+    const auto engines = vehicle->messages().engineFrames(run_.stampOf(1));
+    frames.insert(frames.end(), engines.begin(), engines.end());
+  }
+  static_transforms_.sendTransform(frames);
+}
+
+void HovercraftNode::setRealTimeFactor(double real_time_factor) {
+  config_.real_time_factor = real_time_factor;
+  pacer_.reset();
+  if (real_time_factor > 0.0) pacer_.emplace(config_.scenario.step_ns, real_time_factor);
+  restartPace();
+}
+
+void HovercraftNode::restartPace() {
+  if (pacer_) pacer_->restart(run_.simulation().tick(), steadyNow());
+}
+
+void HovercraftNode::resume() {
+  paused_ = false;
+  restartPace();
+}
+
+void HovercraftNode::run() {
+  restartPace();
+  pace_.restart(steadyNow());
+  while (ros::ok()) {
+    ros::WallDuration timeout;
+    timeout.fromNSec(waitNs(steadyNow()));
+    ros::getGlobalCallbackQueue()->callAvailable(timeout);
+    advance();
+  }
+}
+
+std::int64_t HovercraftNode::waitNs(std::int64_t now_ns) const {
+  if (isIdle()) return kIdleWaitNs;
+  if (!pacer_) return 0;
+  return std::max<std::int64_t>(pacer_->deadline(run_.simulation().tick() + 1) - now_ns, 0);
+}
+
+bool HovercraftNode::isStepDue(std::int64_t now_ns) const {
+  return !isIdle() && (!pacer_ || pacer_->deadline(run_.simulation().tick() + 1) <= now_ns);
+}
+
+void HovercraftNode::advance() {
+  std::int64_t now = steadyNow();
+  if (isIdle()) {
+    noticeSilence(now);
+  } else if (pacer_) {
+    const std::int64_t given_up = pacer_->giveUpBacklog(run_.simulation().tick() + 1, now);
+    pace_.addGivenUp(given_up);
+    if (given_up > 0 && behind_warnings_.isDue(now)) {
+      ROS_WARN(
+          "The simulation falls behind its pace: %.3f s of wall time given up since the last "
+          "report",
+          hovercraft::toSeconds(pace_.givenUp()));
+    }
+  }
+  const std::int64_t slice_end = now + kStepSliceNs;
+  while (isStepDue(now) && now < slice_end) {
+    const std::int64_t lateness = pacer_ ? now - pacer_->deadline(run_.simulation().tick() + 1) : 0;
+    stepOnce();
+    const std::int64_t after = steadyNow();
+    pace_.addStep(lateness, after - now, lateness > config_.scenario.step_ns);
+    now = after;
+  }
+  if (clock_) clock_->publishIfDue(run_.stamp(), now, isIdle());
+}
+
+void HovercraftNode::stepOnce() {
+  run_.simulation().step();
+  const hovercraft::Tick tick = run_.simulation().tick();
+  const bool ends_period = config_.lockstep && tick % config_.control_period == 0;
+  if (ends_period || tick % config_.publish_every == 0) publishState();
+  if (ends_period) {
+    lockstep_.await(run_.stamp());
+    waiting_since_ns_ = steadyNow();
+  }
+}
+
+void HovercraftNode::stepPaused(std::uint32_t steps) {
+  for (std::uint32_t i = 0; i < steps; ++i) stepOnce();
+}
+
+void HovercraftNode::publishState() {
+  transform_batch_.clear();
+  for (const auto& vehicle : vehicles_) {
+    vehicle->publish();
+    transform_batch_.push_back(vehicle->messages().transform());
+  }
+  transforms_.sendTransform(transform_batch_);
+  if (clock_) clock_->publishIfDue(run_.stamp(), steadyNow(), false);
+}
+
+void HovercraftNode::apply(const hovercraft_sim::RunEvent& event) {
+  events_.publish(run_.apply(event));
+  lockstep_.clear();
+  restartPace();
+}
+
+void HovercraftNode::noticeSilence(std::int64_t now_ns) {
+  const auto awaited = lockstep_.awaited();
+  if (paused_ || !awaited) return;
+  const double waited = hovercraft::toSeconds(now_ns - waiting_since_ns_);
+  if (waited < config_.lockstep_timeout) return;
+  telemetry_message_.waiting_for = vehicles_[*awaited]->messages().name();
+  if (silence_warnings_.isDue(now_ns)) {
+    ROS_WARN(
+        "Lockstep: no ThrustCommand of %s with the stamp of the last state for %.1f s; the "
+        "simulation waits",
+        telemetry_message_.waiting_for.c_str(), waited);
+  }
+}
+
+void HovercraftNode::report() {
+  const std::int64_t now = steadyNow();
+  pace_.fill(telemetry_message_, now, config_.scenario.step_ns);
+  telemetry_message_.header.stamp = run_.stamp();
+  telemetry_message_.tick = static_cast<std::uint64_t>(run_.simulation().tick());
+  telemetry_message_.episode = run_.episode();
+  telemetry_message_.paused = static_cast<std::uint8_t>(paused_ ? 1 : 0);
+  telemetry_message_.wanted_real_time_factor = config_.real_time_factor;
+  telemetry_.publish(telemetry_message_);
+  diagnostics_.force_update();
+  telemetry_message_.waiting_for.clear();
+  pace_.restart(now);
+}
+
+void HovercraftNode::reportCommands(diagnostic_updater::DiagnosticStatusWrapper& status,
+                                    std::size_t vehicle) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const std::uint64_t drops = vehicles_[vehicle]->droppedCommands();
+  const std::uint64_t saturations = vehicles_[vehicle]->saturatedCommands();
+  bool timed_out = false;
+  for (std::size_t engine = 0; engine < hovercraft::kEngineNames.size(); ++engine) {
+    const auto state = run_.simulation().engineReport(vehicle, static_cast<int>(engine));
+    timed_out = timed_out || state.timed_out;
+    status.addf(std::string("Age of command, ") + hovercraft::kEngineNames[engine] + " (s)", "%.3f",
+                state.command_age);
+  }
+  if (drops > reported_drops_[vehicle]) {
+    status.summary(DiagnosticStatus::WARN, "Dropped commands");
+  } else if (saturations > reported_saturations_[vehicle]) {
+    status.summary(DiagnosticStatus::WARN, "Saturated commands beyond the limits");
+  } else {
+    status.summary(DiagnosticStatus::OK, timed_out ? "Timed out" : "OK");
+  }
+  status.add("Dropped commands", drops);
+  status.add("Saturated commands", saturations);
+  reported_drops_[vehicle] = drops;
+  reported_saturations_[vehicle] = saturations;
+}
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,90 @@
+#include "hovercraft_sim/ros/markers_node.h"
+
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <visualization_msgs/MarkerArray.h>
+#include <yaml-cpp/yaml.h>
+
+#include <ros/console.h>
+
+#include "hovercraft_sim/ros/vehicle_markers.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+namespace hovercraft_ros {
+namespace {
+
+constexpr double kRefreshPeriod = 0.05;      // s of wall time
+constexpr double kPathSpacing = 0.02;        // m between two points of the path
+constexpr std::size_t kLongestPath = 10000;  // points; older ones are forgotten
+constexpr std::uint32_t kQueue = 10;
+
+void append(visualization_msgs::MarkerArray& array,
+            const std::vector<visualization_msgs::Marker>& markers) {
+  array.markers.insert(array.markers.end(), markers.begin(), markers.end());
+}
+
+}  // namespace
+
+MarkersNode::MarkersNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle) {
+  ros::NodeHandle own(private_handle);
+  publisher_ = own.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
+  scenario_subscriber_ = handle_.subscribe("scenario", 1, &MarkersNode::onScenario, this);
+  timer_ = own.createWallTimer(ros::WallDuration(kRefreshPeriod),
+                               [this](const ros::WallTimerEvent&) { publish(); });
+}
+
+void MarkersNode::onScenario(const std_msgs::String& message) {
+  craft_.clear();
+  try {
+    const hovercraft::Scenario scenario = hovercraft::parseScenario(
+        YAML::Load(message.data), {handle_.resolveName("scenario"), "", {}});
+    for (const hovercraft::VehicleScenario& description : scenario.vehicles) watch(description);
+  } catch (const std::exception& error) {
+    ROS_ERROR("Nothing is drawn: %s", error.what());
+  }
+}
+
+void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
+  craft_.push_back(std::make_unique<Craft>());
+  Craft* craft = craft_.back().get();
+  craft->description = description;
+  ros::NodeHandle own(handle_, description.name);
+  const boost::function<void(const geometry_msgs::PoseStamped&)> on_pose =
+      [craft](const geometry_msgs::PoseStamped& pose) { extendPath(*craft, pose); };
+  const boost::function<void(const hovercraft_sim::EngineStatus&)> on_engines =
+      [craft](const hovercraft_sim::EngineStatus& engines) { craft->engines = engines; };
+  craft->subscribers = {
+      own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kQueue, on_pose),
+      own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kQueue, on_engines)};
+}
+
+void MarkersNode::extendPath(Craft& craft, const geometry_msgs::PoseStamped& pose) {
+  craft.world_frame = pose.header.frame_id;
+  const geometry_msgs::Point& here = pose.pose.position;
+  if (!craft.path.empty()) {
+    const geometry_msgs::Point& last = craft.path.back();
+    if (std::hypot(here.x - last.x, here.y - last.y, here.z - last.z) < kPathSpacing) return;
+  }
+  if (craft.path.size() == kLongestPath) {
+    craft.path.erase(craft.path.begin(),
+                     craft.path.begin() + static_cast<std::ptrdiff_t>(kLongestPath / 2));
+  }
+  craft.path.push_back(here);
+}
+
+void MarkersNode::publish() {
+  if (publisher_.getNumSubscribers() == 0) return;
+  visualization_msgs::MarkerArray array;
+  for (const auto& craft : craft_) {
+    if (craft->world_frame.empty()) continue;  // no pose yet: tf does not know the craft
+    append(array, craftMarkers(craft->description));
+    append(array, thrustMarkers(craft->description, craft->engines));
+    array.markers.push_back(pathMarker(craft->description, craft->world_frame, craft->path));
+  }
+  if (!array.markers.empty()) publisher_.publish(array);
+}
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,108 @@
+#include "hovercraft_sim/ros/node_services.h"
+
+#include <functional>
+#include <std_srvs/Trigger.h>
+#include <stdexcept>
+#include <string>
+
+#include <hovercraft_sim/ApplyWrench.h>
+#include <hovercraft_sim/Reset.h>
+#include <hovercraft_sim/SetState.h>
+#include <hovercraft_sim/Snapshot.h>
+#include <hovercraft_sim/Step.h>
+
+#include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/sim/snapshot.h"
+
+namespace hovercraft_ros {
+namespace {
+
+/// Bound on one ~step: an hour at 1 kHz. Whoever wants more asks again, and callbacks are served
+/// between.
+constexpr std::uint32_t kMostSteps = 3600000;
+
+template <class Service>
+ros::ServiceServer serve(
+    ros::NodeHandle& handle, const std::string& name,
+    std::function<void(const typename Service::Request&, typename Service::Response&)> answer) {
+  const boost::function<bool(typename Service::Request&, typename Service::Response&)> callback =
+      [answer](typename Service::Request& request, typename Service::Response& response) {
+        try {
+          answer(request, response);
+          response.success = 1;
+        } catch (const std::invalid_argument& error) {
+          response.success = 0;
+          response.message = error.what();
+        }
+        return true;
+      };
+  return handle.advertiseService(name, callback);
+}
+
+template <class Response>
+void tellTickAndHash(const LiveRun& run, Response& response) {
+  response.tick = static_cast<std::uint64_t>(run.simulation().tick());
+  response.episode = run.episode();
+  response.hash = run.simulation().hash();
+}
+
+void step(HovercraftNode& node, const hovercraft_sim::Step::Request& request) {
+  if (!node.isPaused()) throw std::invalid_argument("the simulation must be paused first: ~pause");
+  if (node.config().lockstep) {
+    throw std::invalid_argument("in lockstep it is the commands that move the simulation: ~resume");
+  }
+  if (request.steps > kMostSteps) {
+    throw std::invalid_argument("steps = " + std::to_string(request.steps) + ": must be at most " +
+                                std::to_string(kMostSteps));
+  }
+  node.stepPaused(request.steps);
+}
+
+}  // namespace
+
+NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode& node)
+    : node_(node) {
+  ros::NodeHandle own(private_handle);
+  servers_.push_back(serve<std_srvs::Trigger>(
+      own, "pause", [this](const auto& /*request*/, auto& /*response*/) { node_.pause(); }));
+  servers_.push_back(serve<std_srvs::Trigger>(
+      own, "resume", [this](const auto& /*request*/, auto& /*response*/) { node_.resume(); }));
+  servers_.push_back(
+      serve<hovercraft_sim::Step>(own, "step", [this](const auto& request, auto& response) {
+        step(node_, request);
+        tellTickAndHash(node_.liveRun(), response);
+      }));
+  servers_.push_back(
+      serve<hovercraft_sim::Reset>(own, "reset", [this](const auto& request, auto& response) {
+        const bool with_seed = request.with_seed != 0;
+        node_.apply(resetEvent(with_seed ? request.seed : node_.config().scenario.seed));
+        response.episode = node_.liveRun().episode();
+        response.hash = node_.liveRun().simulation().hash();
+      }));
+  servers_.push_back(serve<hovercraft_sim::SetState>(
+      own, "set_state", [this](const auto& request, auto& response) {
+        node_.apply(setStateEvent(node_.config().scenario, request));
+        response.tick = static_cast<std::uint64_t>(node_.liveRun().simulation().tick());
+      }));
+  servers_.push_back(serve<hovercraft_sim::ApplyWrench>(
+      own, "apply_wrench", [this](const auto& request, auto& response) {
+        const hovercraft::Tick tick = node_.liveRun().simulation().tick();
+        const auto event =
+            applyWrenchEvent(node_.config().scenario, request, node_.config().world_frame, tick);
+        node_.apply(event);
+        response.tick = static_cast<std::uint64_t>(tick);
+        response.end_tick = event.end_tick;
+      }));
+  servers_.push_back(
+      serve<hovercraft_sim::Snapshot>(own, "save", [this](const auto& request, auto& response) {
+        hovercraft::saveSnapshot(node_.liveRun().simulation(), request.file);
+        tellTickAndHash(node_.liveRun(), response);
+      }));
+  servers_.push_back(
+      serve<hovercraft_sim::Snapshot>(own, "load", [this](const auto& request, auto& response) {
+        node_.apply(loadEvent(hovercraft::readSnapshotText(request.file)));
+        tellTickAndHash(node_.liveRun(), response);
+      }));
+}
+
+}  // namespace hovercraft_ros

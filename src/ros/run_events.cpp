@@ -1,0 +1,139 @@
+#include "hovercraft_sim/ros/run_events.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <vector>
+
+#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/snapshot.h"
+
+namespace hovercraft_ros {
+namespace {
+
+using hovercraft::Vector3;
+using hovercraft_sim::RunEvent;
+
+void require(bool holds, const std::string& rule) {
+  if (!holds) throw std::invalid_argument(rule);
+}
+
+void requireFinite(const Vector3& v, const char* name) {
+  require(v.allFinite(), fmt::format("{}: must be finite", name));
+}
+
+void requirePlanar(const hovercraft::Quaternion& q, const Vector3& v_H, const Vector3& w_H) {
+  require(q.v.x() == 0.0 && q.v.y() == 0.0,
+          "pose.orientation: the model is planar: x and y must be 0 (yaw only)");
+  require(v_H.z() == 0.0, "twist.linear: the model is planar: z must be 0");
+  require(w_H.x() == 0.0 && w_H.y() == 0.0,
+          "twist.angular: the model is planar: x and y must be 0");
+}
+
+}  // namespace
+
+std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    if (scenario.vehicles[i].name == name) return i;
+    names.push_back(scenario.vehicles[i].name);
+  }
+  throw std::invalid_argument(
+      fmt::format("vehicle = {}: must be one of: {}", name, fmt::join(names, ", ")));
+}
+
+RunEvent resetEvent(std::int64_t seed) {
+  RunEvent event;
+  event.kind = RunEvent::RESET;
+  event.seed = seed;
+  return event;
+}
+
+RunEvent loadEvent(const std::string& snapshot) {
+  RunEvent event;
+  event.kind = RunEvent::LOAD;
+  event.snapshot = snapshot;
+  return event;
+}
+
+RunEvent setStateEvent(const hovercraft::Scenario& scenario,
+                       const hovercraft_sim::SetState::Request& request) {
+  const std::size_t vehicle = vehicleIndex(scenario, request.vehicle);
+  const Vector3 p_WH = fromMessage(request.pose.position);
+  const hovercraft::Quaternion q_WH = fromMessage(request.pose.orientation);
+  const Vector3 v_H = fromMessage(request.twist.linear);
+  const Vector3 w_H = fromMessage(request.twist.angular);
+  requireFinite(p_WH, "pose.position");
+  requireFinite(v_H, "twist.linear");
+  requireFinite(w_H, "twist.angular");
+  require(
+      std::abs(hovercraft::norm(q_WH) - 1.0) <= hovercraft::kUnitLength,
+      fmt::format("pose.orientation: must have length 1 (it has {:.6g})", hovercraft::norm(q_WH)));
+  if (scenario.model == hovercraft::BodyModel::kPlanar) requirePlanar(q_WH, v_H, w_H);
+
+  const hovercraft::Matrix3 R_WH = hovercraft::rotationMatrix(hovercraft::normalized(q_WH));
+  const Vector3 p_HB_W = hovercraft::times(R_WH, scenario.vehicles[vehicle].mass_properties.p_HB);
+  const Vector3 w_W = hovercraft::times(R_WH, w_H);
+  RunEvent event;
+  event.kind = RunEvent::SET_STATE;
+  event.vehicle = request.vehicle;
+  event.pose.position = toPointMessage(p_WH + p_HB_W);
+  event.pose.orientation = request.pose.orientation;
+  event.twist.linear =
+      toVector3Message(hovercraft::times(R_WH, v_H) + hovercraft::cross(w_W, p_HB_W));
+  event.twist.angular = toVector3Message(w_W);
+  return event;
+}
+
+RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
+                          const hovercraft_sim::ApplyWrench::Request& request,
+                          const std::string& world_frame, hovercraft::Tick tick) {
+  vehicleIndex(scenario, request.vehicle);
+  requireFinite(fromMessage(request.wrench.force), "wrench.force");
+  requireFinite(fromMessage(request.wrench.torque), "wrench.torque");
+  const std::string base_frame = request.vehicle + "/base_link";
+  require(
+      request.frame_id == world_frame || request.frame_id == base_frame,
+      fmt::format("frame_id = {}: must be {} or {}", request.frame_id, world_frame, base_frame));
+  const std::int64_t duration_ns = request.duration.toNSec();
+  require(duration_ns > 0, "duration: must be greater than 0");
+  RunEvent event;
+  event.kind = RunEvent::APPLY_WRENCH;
+  event.vehicle = request.vehicle;
+  event.wrench = request.wrench;
+  event.in_body_axes = static_cast<std::uint8_t>(request.frame_id == base_frame ? 1 : 0);
+  event.end_tick =
+      static_cast<std::uint64_t>(tick + hovercraft::firstTickAt(duration_ns, scenario.step_ns));
+  return event;
+}
+
+void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
+  const hovercraft::Scenario& scenario = simulation.scenario();
+  switch (event.kind) {
+    case RunEvent::RESET:
+      simulation.reset(event.seed);
+      return;
+    case RunEvent::LOAD:
+      simulation.restore(hovercraft::parseSnapshot(event.snapshot, "snapshot", scenario));
+      return;
+    case RunEvent::SET_STATE:
+      simulation.setMotion(vehicleIndex(scenario, event.vehicle), fromMessage(event.pose.position),
+                           fromMessage(event.pose.orientation),
+                           {fromMessage(event.twist.linear), fromMessage(event.twist.angular)});
+      return;
+    case RunEvent::APPLY_WRENCH: {
+      using Frame = hovercraft::ExternalWrench::Frame;
+      simulation.applyWrench({vehicleIndex(scenario, event.vehicle),
+                              event.in_body_axes != 0 ? Frame::kBody : Frame::kWorld,
+                              {fromMessage(event.wrench.force), fromMessage(event.wrench.torque)},
+                              static_cast<hovercraft::Tick>(event.end_tick)});
+      return;
+    }
+    default:
+      throw std::invalid_argument(fmt::format("kind = {}: is no event that is known", event.kind));
+  }
+}
+
+}  // namespace hovercraft_ros

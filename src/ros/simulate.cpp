@@ -1,0 +1,156 @@
+#include "hovercraft_sim/ros/simulate.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <stdexcept>
+
+#include <ros/package.h>
+
+#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/ros/bag_file.h"
+#include "hovercraft_sim/ros/bag_writer.h"
+#include "hovercraft_sim/ros/commands_bag.h"
+#include "hovercraft_sim/ros/progress_bar.h"
+#include "hovercraft_sim/sim/commands_csv.h"
+#include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/states_csv.h"
+
+namespace hovercraft_ros {
+
+using hovercraft::Scenario;
+using hovercraft::Tick;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isSameFile(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::is_regular_file(a, ignored) && fs::equivalent(a, b, ignored);
+}
+
+Tick ticksOfDuration(const std::string& text, const Scenario& scenario) {
+  const auto fail = [&](const std::string& rule) {
+    throw std::invalid_argument(fmt::format("--duration = {}: {}", text, rule));
+  };
+  const hovercraft::ParsedNumber seconds = hovercraft::parseNumber(text);
+  if (seconds.syntax != hovercraft::NumberSyntax::kNumber) fail("must be a number of seconds");
+  if (!(seconds.value > 0.0)) fail("must be greater than 0");
+  const double most = hovercraft::kMaxNanoseconds * 1e-9;
+  if (seconds.value > most) fail(fmt::format("must be at most {:.0f} s", most));
+  return hovercraft::firstTickAt(hovercraft::parseNanoseconds(text), scenario.step_ns);
+}
+
+/// Reads the commands once to find where they end: a file is then known to be good before anything
+/// is written.
+Tick ticksOfCommands(const std::string& path, const Scenario& scenario) {
+  if (!fs::is_regular_file(path)) {
+    throw std::invalid_argument(
+        path + ": the duration is missing: commands that do not come from a file need --duration");
+  }
+  const auto source = openCommands(path, scenario);
+  Tick last = 0;
+  bool found = false;
+  for (; const auto command = source->next(); found = true) last = command->tick;
+  if (!found) throw std::invalid_argument(path + ": there are no commands in it; use --duration");
+  return last + hovercraft::firstTickAt(kAfterLastCommandNs, scenario.step_ns);
+}
+
+void checkRequest(const SimulateRequest& request) {
+  if (request.every < 1) {
+    throw std::invalid_argument(fmt::format("--every = {}: must be 1 or greater", request.every));
+  }
+  if (request.commands.empty() && request.duration.empty()) {
+    throw std::invalid_argument("--duration is missing: without --commands it must be given");
+  }
+  for (const std::string& input : {request.scenario, request.commands}) {
+    if (!isSameFile(input, request.output)) continue;
+    throw std::invalid_argument(
+        fmt::format("--output = {}: must not be a file that is read", request.output));
+  }
+}
+
+void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scenario,
+                    std::ostream& messages) {
+  for (const hovercraft::EngineTimeout& timeout : summary.timeouts) {
+    const hovercraft::VehicleScenario& vehicle = scenario.vehicles[timeout.vehicle];
+    const auto engine = static_cast<std::size_t>(timeout.engine);
+    messages << fmt::format(
+        "{}: engine {} timed out at {} s: {:g} N were commanded, and then nothing for {} s",
+        vehicle.name, hovercraft::kEngineNames[engine],
+        hovercraft::secondsText(timeout.first_tick * scenario.step_ns), timeout.first_commanded,
+        hovercraft::secondsText(vehicle.engines[engine].timeout_ns));
+    if (timeout.count > 1) messages << fmt::format(" (the first of {} times)", timeout.count);
+    messages << "; --hold keeps commands\n";
+  }
+}
+
+}  // namespace
+
+Scenario loadScenarioFile(const std::string& path) {
+  return hovercraft::loadScenario(
+      path, [](const std::string& package) { return ros::package::getPath(package); });
+}
+
+std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
+                                                        const Scenario& scenario) {
+  if (isBag(path)) return std::make_unique<BagCommandSource>(path, scenario);
+  return std::make_unique<hovercraft::CsvCommandSource>(path, scenario);
+}
+
+std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
+                                                  const Scenario& scenario) {
+  const std::string extension = fs::path(path).extension().string();
+  if (extension == ".bag") return std::make_unique<BagWriter>(path, scenario);
+  std::error_code ignored;
+  const bool is_device = fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) &&
+                         !fs::is_directory(path, ignored);
+  if (extension != ".csv" && path != "-" && !is_device) {
+    throw std::invalid_argument(
+        fmt::format("--output = {}: must end in .csv or .bag, or be - for CSV on the standard "
+                    "output",
+                    path));
+  }
+  return std::make_unique<hovercraft::StatesCsvWriter>(path, scenario);
+}
+
+hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages) {
+  checkRequest(request);
+  Scenario scenario = loadScenarioFile(request.scenario);
+  if (request.hold) {
+    for (hovercraft::VehicleScenario& vehicle : scenario.vehicles) {
+      for (hovercraft::EngineParameters& engine : vehicle.engines) engine.timeout_ns = 0;
+    }
+  }
+  hovercraft::RunPlan plan;
+  plan.every = request.every;
+  plan.last_tick = request.duration.empty() ? ticksOfCommands(request.commands, scenario)
+                                            : ticksOfDuration(request.duration, scenario);
+  const std::unique_ptr<hovercraft::CommandSource> commands =
+      request.commands.empty() ? std::make_unique<hovercraft::NoCommands>()
+                               : openCommands(request.commands, scenario);
+  const auto output = openOutput(request.output, scenario);
+  hovercraft::Simulation simulation(scenario);
+
+  std::optional<ProgressBar> bar;
+  if (request.shows_progress) {
+    bar.emplace(messages, plan.last_tick);
+    plan.on_progress = [&bar](Tick tick) { bar->show(tick); };
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const hovercraft::RunSummary summary = hovercraft::run(simulation, *commands, *output, plan);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  bar.reset();
+
+  reportTimeouts(summary, scenario, messages);
+  messages << fmt::format(
+      "simulated {} s in {} ticks, wall time {:.3f} s, {:.0f} x real time, state hash {:016x}\n",
+      hovercraft::secondsText(simulation.timeNs()), simulation.tick(), wall.count(),
+      hovercraft::toSeconds(simulation.timeNs()) / wall.count(), summary.hash);
+  return summary;
+}
+
+}  // namespace hovercraft_ros

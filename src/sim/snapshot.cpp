@@ -1,0 +1,175 @@
+#include "hovercraft_sim/sim/snapshot.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+namespace hovercraft {
+namespace {
+
+const std::vector<std::string> kFrameNames = {"world", "body"};
+
+std::string text(const Vector3& v) {
+  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
+}
+
+/// The orientation as named vectors: a quaternion as scalar and vector, a matrix as its columns.
+std::string orientationText(const Quaternion& q) {
+  return fmt::format("q_s: {:.17g}, q_v: {}", q.s, text(q.v));
+}
+std::string orientationText(const Matrix3& R) {
+  return fmt::format("x_axis: {}, y_axis: {}, z_axis: {}", text(R.col(0)), text(R.col(1)),
+                     text(R.col(2)));
+}
+
+Quaternion parseQuaternion(const ConfigReader& reader) {
+  return {reader.number("q_s"), reader.vector("q_v")};
+}
+Matrix3 parseMatrix(const ConfigReader& reader) {
+  Matrix3 R;
+  R.col(0) = reader.vector("x_axis");
+  R.col(1) = reader.vector("y_axis");
+  R.col(2) = reader.vector("z_axis");
+  return R;
+}
+
+template <class Orientation>
+RigidBodyState<Orientation> parseBody(const ConfigReader& body, const Orientation& orientation) {
+  return {body.vector("position"), orientation, body.vector("momentum"),
+          body.vector("angular_momentum")};
+}
+
+std::string vehicleText(const std::string& name, const VehicleState& state) {
+  std::string yaml = fmt::format("  {}:\n", name);
+  yaml += std::visit(
+      [](const auto& body) {
+        return fmt::format("    body: {{position: {}, {}, momentum: {}, angular_momentum: {}}}\n",
+                           text(body.p_WB), orientationText(body.orientation),
+                           text(body.momentum_W), text(body.angular_momentum_W));
+      },
+      state.body);
+  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
+    const EngineState& engine = state.engines[i];
+    yaml += fmt::format("    {}: {{commanded: {:.17g}, thrust: {:.17g}, command_tick: {}}}\n",
+                        kEngineNames[i], engine.commanded, engine.thrust, engine.command_tick);
+  }
+  return yaml;
+}
+
+std::string wrenchText(const Scenario& scenario, const ExternalWrench& external) {
+  return fmt::format("  - {{vehicle: {}, frame: {}, force: {}, torque: {}, end_tick: {}}}\n",
+                     scenario.vehicles[external.vehicle].name,
+                     kFrameNames[static_cast<std::size_t>(external.frame)],
+                     text(external.wrench.force), text(external.wrench.torque), external.end_tick);
+}
+
+VehicleState parseVehicle(const ConfigReader& reader, OrientationKind kind) {
+  reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
+  const ConfigReader body = reader.map("body");
+  VehicleState state;
+  if (kind == OrientationKind::kQuaternion) {
+    state.body = parseBody(body, parseQuaternion(body));
+  } else {
+    state.body = parseBody(body, parseMatrix(body));
+  }
+  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
+    const ConfigReader engine = reader.map(kEngineNames[i]);
+    engine.allowOnly({"commanded", "thrust", "command_tick"});
+    state.engines[i] = {engine.number("commanded"), engine.number("thrust"),
+                        engine.wholeNumberOr(EngineState::kNever, "command_tick")};
+  }
+  return state;
+}
+
+ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario) {
+  reader.allowOnly({"vehicle", "frame", "force", "torque", "end_tick"});
+  std::vector<std::string> names;
+  for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  ExternalWrench external;
+  external.vehicle = reader.choiceOr(0, "vehicle", names);
+  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", kFrameNames));
+  external.wrench = {reader.vector("force"), reader.vector("torque")};
+  external.end_tick = reader.wholeNumberOr(0, "end_tick");
+  return external;
+}
+
+}  // namespace
+
+std::string toSnapshot(const Simulation& simulation) {
+  const Scenario& scenario = simulation.scenario();
+  const SimulationState& state = simulation.state();
+  std::string yaml = fmt::format("tick: {}\nseed: {}\nhash: '{:016x}'\nvehicles:\n", state.tick,
+                                 state.seed, simulation.hash());
+  for (std::size_t i = 0; i < state.vehicles.size(); ++i) {
+    yaml += vehicleText(scenario.vehicles[i].name, state.vehicles[i]);
+  }
+  if (!state.wrenches.empty()) yaml += "wrenches:\n";
+  for (const ExternalWrench& external : state.wrenches) yaml += wrenchText(scenario, external);
+  yaml += "scenario: |\n";
+  std::istringstream lines(toYaml(scenario));
+  for (std::string line; std::getline(lines, line);) yaml += "  " + line + "\n";
+  return yaml;
+}
+
+SimulationState parseSnapshot(const std::string& text, const std::string& source,
+                              const Scenario& scenario) {
+  YAML::Node tree;
+  try {
+    tree = YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(fmt::format("{}: not YAML: {}", source, error.what()));
+  }
+  const ConfigReader reader(tree, source);
+  reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "scenario"});
+  if (reader.text("scenario") != toYaml(scenario)) {
+    throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
+  }
+  SimulationState state;
+  state.tick = reader.wholeNumberOr(-1, "tick");
+  if (state.tick < 0) reader.fail("tick", "must be 0 or greater");
+  state.seed = reader.wholeNumberOr(scenario.seed, "seed");
+  const ConfigReader vehicles = reader.map("vehicles");
+  for (const VehicleScenario& vehicle : scenario.vehicles) {
+    state.vehicles.push_back(parseVehicle(vehicles.map(vehicle.name), scenario.orientation));
+  }
+  if (reader.has("wrenches")) {
+    for (const ConfigReader& wrench : reader.list("wrenches")) {
+      state.wrenches.push_back(parseWrench(wrench, scenario));
+    }
+  }
+  Simulation check(scenario);
+  check.restore(state);
+  if (reader.text("hash") != fmt::format("{:016x}", check.hash())) {
+    reader.fail("hash", "is not that of the state: the snapshot was changed");
+  }
+  return state;
+}
+
+void saveSnapshot(const Simulation& simulation, const std::string& path) {
+  const std::string unfinished = path + ".part";
+  std::ofstream stream(unfinished, std::ios::binary);
+  stream << toSnapshot(simulation);
+  stream.close();
+  if (!stream || std::rename(unfinished.c_str(), path.c_str()) != 0) {
+    const std::string reason = std::strerror(errno);
+    std::remove(unfinished.c_str());
+    throw std::invalid_argument(fmt::format("{}: cannot be written: {}", path, reason));
+  }
+}
+
+std::string readSnapshotText(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
+  return text;
+}
+
+}  // namespace hovercraft

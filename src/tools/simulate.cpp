@@ -1,0 +1,53 @@
+#include "hovercraft_sim/ros/simulate.h"
+
+#include <boost/program_options.hpp>
+#include <exception>
+#include <iostream>
+#include <unistd.h>
+
+namespace {
+
+namespace po = boost::program_options;
+
+po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
+  po::options_description options("Options");
+  auto add = options.add_options();
+  add("scenario", po::value(&request.scenario)->required(), "scenario file (YAML)");
+  add("commands,c", po::value(&request.commands), "commands to fly (.csv or .bag)");
+  add("duration,d", po::value(&request.duration),
+      "simulated seconds; default: to 1 s after the last command");
+  add("output,o", po::value(&request.output)->required(),
+      "states (.csv or .bag); - is CSV on the standard output");
+  add("every,e", po::value(&request.every)->default_value(request.every),
+      "put out every N-th tick");
+  add("hold", po::bool_switch(&request.hold), "commands hold for ever: no engine times out");
+  add("help,h", "this text");
+  return options;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    hovercraft_ros::SimulateRequest request;
+    const po::options_description options = optionsOf(request);
+    po::positional_options_description positions;
+    positions.add("scenario", 1);
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positions).run(),
+              values);
+    if (values.count("help") > 0) {
+      std::cout << "simulate SCENARIO.yaml [--commands FILE] [--duration S] --output FILE\n"
+                   "Runs a scenario as fast as it goes and writes the states of its vehicles.\n\n"
+                << options;
+      return 0;
+    }
+    po::notify(values);
+    request.shows_progress = isatty(STDERR_FILENO) != 0;
+    hovercraft_ros::simulate(request, std::cerr);
+  } catch (const std::exception& error) {
+    std::cerr << "simulate: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

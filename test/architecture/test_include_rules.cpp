@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+/// The table of modules (ARCHITECTURE.md): who may include whom. ROS headers lie in /usr/include on
+/// Debian, so that the compiler alone would not notice a core file that includes one.
+
+namespace hovercraft {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// What the files of a module may include besides their own module and the standard library.
+struct Rule {
+  Names modules;
+  Names third_parties;  // beginnings of a path
+};
+
+Names operator+(Names a, const Names& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const std::map<std::string, Rule>& rules() {
+  static const Names core = {"math",      "geometry", "body",  "hovercraft",
+                             "collision", "contact",  "world", "sim"};
+  static const Names messages = {"geometry_msgs/",  "nav_msgs/",          "rosgraph_msgs/",
+                                 "std_msgs/",       "std_srvs/",          "tf2_msgs/",
+                                 "hovercraft_sim/", "visualization_msgs/"};
+  static const Names of_ros =
+      messages +
+      Names{
+          "Eigen/",  "fmt/",     "yaml-cpp/",     "boost/make_shared.hpp", "ros/",
+          "rosbag/", "tf2_ros/", "XmlRpcValue.h", "diagnostic_updater/",   "dynamic_reconfigure/"};
+  static const std::map<std::string, Rule> table = {
+      // boost/multiprecision: exp and sin that are the same on every machine; it needs no library.
+      {"math", {{}, {"Eigen/", "boost/multiprecision/"}}},
+      {"geometry", {{"math"}, {"Eigen/", "fmt/", "assimp/"}}},
+      {"body", {{"math", "geometry"}, {"Eigen/", "fmt/"}}},
+      {"hovercraft", {{"math", "geometry", "body"}, {"Eigen/", "fmt/"}}},
+      {"collision", {{"math", "geometry"}, {"Eigen/", "fmt/"}}},
+      {"contact", {{"math", "geometry", "body", "collision"}, {"Eigen/", "fmt/"}}},
+      {"world",
+       {{"math", "geometry", "body", "hovercraft", "collision", "contact"}, {"Eigen/", "fmt/"}}},
+      {"sim",
+       {{"math", "geometry", "body", "hovercraft", "collision", "contact", "world"},
+        {"Eigen/", "fmt/", "yaml-cpp/", "locale.h"}}},
+      {"ros", {core, of_ros}},
+      {"nodes", {{"sim", "ros"}, of_ros}},
+      {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+  };
+  return table;
+}
+
+bool beginsWith(const std::string& text, const std::string& beginning) {
+  return text.rfind(beginning, 0) == 0;
+}
+
+/// The path that a line includes, with its quote or bracket in front; "" if it includes nothing.
+std::string includedBy(const std::string& line) {
+  std::istringstream stream(line);
+  std::string text;
+  for (std::string word; stream >> word;) text += word;  // without white space
+  if (!beginsWith(text, "#include")) return "";
+  const std::string quoted = text.substr(std::string("#include").size());
+  const std::size_t end = quoted.find_first_of(">\"", 1);
+  return quoted.substr(0, end);
+}
+
+/// "" if a file of the module may include this, else the rule that it breaks.
+std::string broken(const std::string& module, const std::string& included) {
+  const Rule& rule = rules().at(module);
+  const std::string path = included.substr(1);
+  const Names parts = [&path] {
+    std::istringstream stream(path);
+    Names names;
+    for (std::string name; std::getline(stream, name, '/');) names.push_back(name);
+    return names;
+  }();
+  if (parts.size() == 3 && parts[0] == "hovercraft_sim") {
+    const bool may =
+        parts[1] == module || std::count(rule.modules.begin(), rule.modules.end(), parts[1]) > 0;
+    return may ? "" : module + " must not include " + parts[1];
+  }
+  if (included.front() == '"') return "a header of this package is named by its whole path";
+  const bool is_standard = path.find_first_of("/.") == std::string::npos;
+  const bool may = is_standard || std::any_of(rule.third_parties.begin(), rule.third_parties.end(),
+                                              [&path](const std::string& beginning) {
+                                                return beginsWith(path, beginning);
+                                              });
+  return may ? "" : module + " must not include this";
+}
+
+Names violationsIn(const std::string& module, const std::string& file, std::istream& text) {
+  Names violations;
+  int number = 0;
+  for (std::string line; std::getline(text, line);) {
+    ++number;
+    const std::string included = includedBy(line);
+    if (included.empty()) continue;
+    const std::string rule = broken(module, included);
+    if (rule.empty()) continue;
+    violations.push_back(file + ":" + std::to_string(number) + ": " + line + ": " + rule);
+  }
+  return violations;
+}
+
+Names violationsOf(const std::string& module, const std::string& text) {
+  std::istringstream stream(text);
+  return violationsIn(module, "file", stream);
+}
+
+/// Every source and header below include/ and src/, with its module: the folder that it lies in.
+std::vector<std::pair<std::filesystem::path, std::string>> sources() {
+  std::vector<std::pair<std::filesystem::path, std::string>> found;
+  for (const char* root : {"include/hovercraft_sim", "src"}) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+      if (!entry.is_regular_file()) continue;
+      found.emplace_back(entry.path(), entry.path().parent_path().filename().string());
+    }
+  }
+  return found;
+}
+
+TEST(IncludeRules, EveryFileKeepsThem) {
+  std::map<std::string, int> files;
+  for (const auto& [path, module] : sources()) {
+    ASSERT_EQ(rules().count(module), 1U) << path << ": a module that the table does not know";
+    std::ifstream text(path);
+    ASSERT_TRUE(text) << path;
+    ++files[module];
+    for (const std::string& violation : violationsIn(module, path.string(), text)) {
+      ADD_FAILURE() << violation;
+    }
+  }
+  for (const char* module : {"math", "geometry", "body", "hovercraft", "sim", "ros", "nodes"}) {
+    EXPECT_GT(files[module], 0) << "no file of " << module << " was found";
+  }
+}
+
+TEST(IncludeRules, NodesAndToolsAreOnlyMains) {
+  int mains = 0;
+  for (const auto& [path, module] : sources()) {
+    if (module != "nodes" && module != "tools") continue;
+    EXPECT_EQ(path.extension(), ".cpp") << path;
+    std::stringstream text;
+    text << std::ifstream(path).rdbuf();
+    EXPECT_NE(text.str().find("\nint main("), std::string::npos) << path;
+    ++mains;
+  }
+  EXPECT_GT(mains, 0);
+}
+
+TEST(IncludeRules, NoMainOutsideNodesAndTools) {
+  for (const auto& [path, module] : sources()) {
+    if (module == "nodes" || module == "tools") continue;
+    std::stringstream text;
+    text << std::ifstream(path).rdbuf();
+    EXPECT_EQ(text.str().find("int main("), std::string::npos) << path;
+  }
+}
+
+// The table must be able to refuse.
+TEST(IncludeRules, RosInTheCoreIsRefused) {
+  for (const char* header :
+       {"<ros/ros.h>", "<rosbag/bag.h>", "<tf2/LinearMath/Quaternion.h>", "<tf2_ros/buffer.h>",
+        "<geometry_msgs/Pose.h>", "<hovercraft_sim/State.h>", "<XmlRpcValue.h>",
+        "\"hovercraft_sim/ros/conversions.h\"", "\"ros/ros.h\""}) {
+    for (const char* module :
+         {"math", "geometry", "body", "hovercraft", "collision", "contact", "world", "sim"}) {
+      EXPECT_EQ(violationsOf(module, "#include " + std::string(header)).size(), 1U)
+          << module << " " << header;
+    }
+  }
+}
+
+TEST(IncludeRules, LowerModulesMustNotIncludeHigherOnes) {
+  EXPECT_EQ(violationsOf("math", "#include \"hovercraft_sim/geometry/triangle_mesh.h\"\n"),
+            Names{"file:1: #include \"hovercraft_sim/geometry/triangle_mesh.h\": math must not "
+                  "include geometry"});
+  EXPECT_EQ(violationsOf("collision", "#include \"hovercraft_sim/body/rigid_body.h\"").size(), 1U);
+  EXPECT_EQ(violationsOf("body", "#include \"hovercraft_sim/hovercraft/drag.h\"").size(), 1U);
+  EXPECT_EQ(violationsOf("world", "#include \"hovercraft_sim/sim/scenario.h\"").size(), 1U);
+  EXPECT_EQ(violationsOf("tools", "#include \"hovercraft_sim/body/rigid_body.h\"").size(), 1U);
+}
+
+TEST(IncludeRules, YamlIsReadInSimAndAboveOnly) {
+  for (const char* module : {"math", "geometry", "body", "hovercraft", "world"}) {
+    EXPECT_EQ(violationsOf(module, "#include <yaml-cpp/yaml.h>").size(), 1U) << module;
+  }
+  EXPECT_TRUE(violationsOf("sim", "#include <yaml-cpp/yaml.h>").empty());
+}
+
+TEST(IncludeRules, WhatIsAllowedPassesHoweverItIsWritten) {
+  EXPECT_TRUE(violationsOf("sim",
+                           "#pragma once\n#include <vector>\n  #  include  <Eigen/Core>\n"
+                           "#include \"hovercraft_sim/sim/run.h\"  // why\n"
+                           "#include \"hovercraft_sim/math/vector.h\"\n")
+                  .empty());
+  EXPECT_EQ(violationsOf("sim", "  #  include  <ros/ros.h>  // why").size(), 1U);
+  EXPECT_EQ(violationsOf("sim", "#include \"run.h\"").size(), 1U);
+  EXPECT_EQ(violationsOf("sim", "#include \"../ros/pacer.h\"").size(), 1U);
+}
+
+}  // namespace
+}  // namespace hovercraft

@@ -1,0 +1,150 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/sim/command_log.h"
+#include "hovercraft_sim/sim/simulation.h"
+
+#include "../support/scenario_text.h"
+
+/// Counts what this executable takes from the heap: operator new in every form ends here.
+
+namespace {
+
+std::size_t allocations = 0;
+
+void* counted(std::size_t size) {
+  ++allocations;
+  void* memory = std::malloc(size == 0 ? 1 : size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+void* countedAligned(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto step = static_cast<std::size_t>(alignment);
+  void* memory = std::aligned_alloc(step, (size + step - 1) / step * step);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new[](std::size_t size) {
+  return counted(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return countedAligned(size, alignment);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return countedAligned(size, alignment);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/,
+                       std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+
+namespace hovercraft {
+namespace {
+
+TEST(Allocations, AreCounted) {
+  const std::size_t before = allocations;
+  std::vector<double> numbers(1);
+  numbers.resize(numbers.capacity() + 1);
+  EXPECT_EQ(allocations - before, 2U);
+}
+
+/// What a step and the pushes before it take from the heap, in 1000 ticks with a command in each.
+std::size_t allocationsWhileDriven(const Scenario& scenario) {
+  Simulation simulation(scenario);
+  std::uint64_t applied = 0;
+  simulation.on_applied = [&applied](const Command& /*command*/) { ++applied; };
+  const auto advance = [&] {
+    const Tick tick = simulation.tick();
+    simulation.push({tick, 0, kAllEngines, {1.0, 0.5, 0.25}});
+    simulation.push({tick, 0, maskOf(EngineId::kLeft), {0.0, static_cast<double>(tick % 3), 0.0}});
+    simulation.step();
+  };
+  advance();  // the log's memory grows once
+  const std::size_t before = allocations;
+  for (int n = 0; n < 1000; ++n) advance();
+  const std::size_t taken = allocations - before;
+  EXPECT_EQ(applied, 2002U);
+  return taken;
+}
+
+TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {
+  Scenario scenario = testing::parsed(testing::validScenario());
+  for (const auto integrator : {Integrator::kEuler, Integrator::kSemiImplicitEuler,
+                                Integrator::kHeun, Integrator::kRungeKutta4}) {
+    for (const auto orientation : {OrientationKind::kQuaternion, OrientationKind::kMatrix}) {
+      for (const auto model : {BodyModel::kPlanar, BodyModel::kSpatial}) {
+        scenario.integrator = integrator;
+        scenario.orientation = orientation;
+        scenario.model = model;
+        EXPECT_EQ(allocationsWhileDriven(scenario), 0U)
+            << static_cast<int>(integrator) << static_cast<int>(orientation)
+            << static_cast<int>(model);
+      }
+    }
+  }
+}
+
+// A log that is never empty must not grow with the length of the run: a million commands, three in
+// waiting, take the memory of a handful.
+TEST(Allocations, OfACommandLogDoNotGrowWithTheRun) {
+  CommandLog log;
+  Tick pushed = 0;
+  const auto push = [&] { log.push({pushed++, 0, kAllEngines, {0.0, 0.0, 0.0}}); };
+  for (int i = 0; i < 3; ++i) push();
+  for (Tick tick = 0; tick < 10; ++tick) {
+    push();
+    log.takeDue(tick);
+  }
+  const std::size_t before = allocations;
+  for (Tick tick = 10; tick < 1000000; ++tick) {
+    push();
+    log.takeDue(tick);
+  }
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(Allocations, NoneInReportingAStep) {
+  const Simulation simulation(testing::parsed(testing::validScenario()));
+  const std::size_t before = allocations;
+  const Motion motion = simulation.motion(0);
+  const EngineReport report = simulation.engineReport(0, 0);
+  const std::uint64_t hash = simulation.hash();
+  EXPECT_EQ(allocations, before) << motion.energy << report.applied << hash;
+}
+
+}  // namespace
+}  // namespace hovercraft

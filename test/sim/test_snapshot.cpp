@@ -1,0 +1,160 @@
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/sim/snapshot.h"
+
+#include "../support/scenario_text.h"
+
+namespace hovercraft {
+namespace {
+
+using testing::parsed;
+using testing::validScenario;
+using testing::with;
+
+void drive(Simulation& simulation, Tick ticks) {
+  for (const Tick end = simulation.tick() + ticks; simulation.tick() < end; simulation.step()) {
+    if (simulation.tick() % 70 != 0) continue;
+    const auto phase = static_cast<double>(simulation.tick() / 70 % 4);
+    simulation.push({simulation.tick(), 0, kAllEngines, {phase, 0.3 * phase, 0.7}});
+  }
+}
+
+Simulation underWay(const Scenario& scenario) {
+  Simulation simulation(scenario);
+  drive(simulation, 333);
+  simulation.applyWrench(
+      {0, ExternalWrench::Frame::kBody, {{0.1, 0.2, 0.3}, {0.01, 0.0, 0.02}}, 600});
+  simulation.applyWrench(
+      {0, ExternalWrench::Frame::kWorld, {{-0.5, 0.0, 0.0}, {0.0, 0.0, 0.03}}, 400});
+  drive(simulation, 17);
+  return simulation;
+}
+
+std::string complaintAbout(const std::string& snapshot, const Scenario& scenario) {
+  try {
+    parseSnapshot(snapshot, "snap.yaml", scenario);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Snapshot, ARunThatGoesOnFromItGivesTheBitsOfTheRunThatNeverStopped) {
+  for (const char* orientation : {"orientation: matrix", "orientation: quaternion"}) {
+    const Scenario scenario = parsed(with(validScenario(), "orientation: matrix", orientation));
+    Simulation unbroken = underWay(scenario);
+    Simulation resumed(scenario);
+    resumed.restore(parseSnapshot(toSnapshot(unbroken), "snap.yaml", scenario));
+    ASSERT_EQ(resumed.hash(), unbroken.hash()) << orientation;
+    for (int n = 0; n < 5; ++n) {
+      drive(unbroken, 100);
+      drive(resumed, 100);
+      EXPECT_EQ(resumed.hash(), unbroken.hash()) << orientation << ", tick " << unbroken.tick();
+    }
+  }
+}
+
+TEST(Snapshot, ComesBackFromAFile) {
+  const Scenario scenario = parsed(validScenario());
+  const Simulation simulation = underWay(scenario);
+  const std::string path = ::testing::TempDir() + "hovercraft_snapshot.yaml";
+  saveSnapshot(simulation, path);
+  EXPECT_EQ(readSnapshotText(path), toSnapshot(simulation));
+  EXPECT_EQ(std::remove(path.c_str()), 0);
+}
+
+TEST(Snapshot, FilesThatCannotBeUsedAreNamed) {
+  const Simulation simulation(parsed(validScenario()));
+  EXPECT_THROW(saveSnapshot(simulation, "/no/such/folder/snap.yaml"), std::invalid_argument);
+  EXPECT_THROW(readSnapshotText("/no/such/folder/snap.yaml"), std::invalid_argument);
+}
+
+TEST(Snapshot, OneOfAnotherScenarioIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  const Scenario heavier = parsed(with(validScenario(), "mass: 5.5", "mass: 5.6"));
+  EXPECT_EQ(complaintAbout(toSnapshot(underWay(scenario)), heavier),
+            "snap.yaml: scenario: the snapshot belongs to another scenario");
+}
+
+TEST(Snapshot, OneThatWasChangedIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  const std::string changed = with(toSnapshot(underWay(scenario)), "tick: 350\n", "tick: 351\n");
+  EXPECT_NE(complaintAbout(changed, scenario).find("is not that of the state"), std::string::npos);
+}
+
+TEST(Snapshot, WhatIsNoSnapshotIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  EXPECT_NE(complaintAbout("tick: [", scenario).find("snap.yaml: not YAML"), std::string::npos);
+  EXPECT_NE(complaintAbout("tick: 5\n", scenario).find("snap.yaml: scenario: the key is missing"),
+            std::string::npos);
+}
+
+// ---- the state that snapshots hold
+// -----------------------------------------------------------------
+
+TEST(SimulationState, ResetIsAFreshStart) {
+  const Scenario scenario = parsed(validScenario());
+  Simulation simulation = underWay(scenario);
+  simulation.push({simulation.tick() + 5, 0, kAllEngines, {1.0, 1.0, 1.0}});
+  simulation.reset(scenario.seed);
+  Simulation fresh(scenario);
+  EXPECT_EQ(simulation.hash(), fresh.hash());
+  drive(simulation, 200);
+  drive(fresh, 200);
+  EXPECT_EQ(simulation.hash(), fresh.hash());
+}
+
+// A constant force on a free body: dP = F t, and it ends at its tick. In body axes of a craft that
+// does not turn, the same.
+TEST(SimulationState, AWrenchActsForItsTicksOnly) {
+  Scenario scenario = parsed(validScenario());
+  scenario.gravity = Vector3::Zero();
+  scenario.wind = Vector3::Zero();
+  scenario.vehicles[0].drag = Drag();
+  scenario.vehicles[0].initial_v_WB = Vector3::Zero();
+  scenario.vehicles[0].initial_w_WB = Vector3::Zero();
+  for (const auto frame : {ExternalWrench::Frame::kWorld, ExternalWrench::Frame::kBody}) {
+    Simulation simulation(scenario);
+    const Vector3 force(1.0, 2.0, -3.0);
+    simulation.applyWrench({0, frame, {force, Vector3::Zero()}, 50});
+    for (int n = 0; n < 80; ++n) simulation.step();
+    const Motion motion = simulation.motion(0);
+    const Vector3 expected = 50 * 0.002 * force;
+    const Vector3 moved = frame == ExternalWrench::Frame::kWorld
+                              ? motion.momentum_W
+                              : rotate(conjugate(motion.q_WB), motion.momentum_W);
+    EXPECT_LT(norm(moved - expected), 1e-13);
+    EXPECT_TRUE(simulation.state().wrenches.empty());
+  }
+}
+
+TEST(SimulationState, MotionThatIsSetIsTheMotionThatIsReported) {
+  for (const char* orientation : {"orientation: matrix", "orientation: quaternion"}) {
+    Simulation simulation(parsed(with(validScenario(), "orientation: matrix", orientation)));
+    const Quaternion q = quaternionFromRpy({0.3, -0.2, 1.1});
+    simulation.setMotion(0, {7.0, 8.0, 9.0}, q, {{1.0, 2.0, 3.0}, {-0.1, 0.2, 0.3}});
+    const Motion motion = simulation.motion(0);
+    EXPECT_EQ(motion.p_WB, Vector3(7.0, 8.0, 9.0));
+    EXPECT_LT(angleBetween(motion.q_WB, q), 1e-15);
+    EXPECT_LT(norm(motion.twist.v_WB - Vector3(1.0, 2.0, 3.0)), 1e-14);
+    EXPECT_LT(norm(motion.twist.w_WB - Vector3(-0.1, 0.2, 0.3)), 1e-15);
+  }
+}
+
+TEST(SimulationState, EachWrenchChangesTheHash) {
+  Simulation simulation(parsed(validScenario()));
+  const std::uint64_t without = simulation.hash();
+  simulation.applyWrench({0, ExternalWrench::Frame::kWorld, {}, 50});
+  const std::uint64_t with_one = simulation.hash();
+  simulation.applyWrench({0, ExternalWrench::Frame::kBody, {}, 50});
+  EXPECT_NE(with_one, without);
+  EXPECT_NE(simulation.hash(), with_one);
+  EXPECT_NE(simulation.hash(0), Simulation(parsed(validScenario())).hash(0));
+}
+
+}  // namespace
+}  // namespace hovercraft
