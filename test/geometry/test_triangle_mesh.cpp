@@ -1,10 +1,12 @@
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 #include "../support/sample_meshes.h"
@@ -14,6 +16,7 @@ namespace {
 
 using testing::boxMesh;
 using testing::joined;
+using testing::moved;
 using testing::starMesh;
 using testing::turnedOver;
 
@@ -203,11 +206,21 @@ TEST(TriangleMesh, APartThatIsInsideOutBesideASoundOneIsRefused) {
       << message;
 }
 
+// Turned and rounded as in a file, the common face is not common to the last bit: the parts overlap
+// or part there by a rounding.
 TEST(TriangleMesh, PartsMayTouch) {
+  std::mt19937 engine(13);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
   const TriangleMesh large = boxMesh(Vector3::Zero(), 2.0 * kOne);
-  const TriangleMesh on_its_face = boxMesh({2.0, 0.5, 0.5}, {3.0, 1.5, 1.5});
-  EXPECT_EQ(messageOfChecking(joined(large, on_its_face)), "no error");
-  EXPECT_EQ(messageOfChecking(joined(on_its_face, large)), "no error");
+  const TriangleMesh on_top = boxMesh({0.5, 0.5, 2.0}, {1.5, 1.5, 3.0});
+  for (int n = 0; n < 50; ++n) {
+    const double roll = angle(engine);
+    const double pitch = angle(engine);
+    const Matrix3 R = rotationFromRpy({roll, pitch, angle(engine)});
+    TriangleMesh both = moved(joined(on_top, large), R, {1.0, 2.0, 3.0});
+    for (Vector3& vertex : both.vertices) vertex = vertex.cast<float>().cast<double>();
+    EXPECT_EQ(messageOfChecking(both), "no error") << "sample " << n;
+  }
 }
 
 TEST(TriangleMesh, RandomConcaveBodiesPass) {
