@@ -1,8 +1,7 @@
 #include "hovercraft_sim/collision/closest_features.h"
 
+#include "hovercraft_sim/collision/feature_walk.h"
 #include "hovercraft_sim/collision/penetration.h"
-
-#include "feature_walk.h"
 
 namespace hovercraft {
 namespace {

@@ -1,4 +1,4 @@
-#include "feature_walk.h"
+#include "hovercraft_sim/collision/feature_walk.h"
 
 namespace hovercraft {
 namespace {

@@ -9,10 +9,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include "hovercraft_sim/geometry/polyhedron_builder.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/tolerances.h"
-
-#include "polyhedron_builder.h"
 
 namespace hovercraft {
 namespace {

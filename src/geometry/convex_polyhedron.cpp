@@ -1,8 +1,7 @@
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
 
+#include "hovercraft_sim/geometry/polyhedron_builder.h"
 #include "hovercraft_sim/geometry/support_map.h"
-
-#include "polyhedron_builder.h"
 
 namespace hovercraft {
 

@@ -1,4 +1,4 @@
-#include "polyhedron_builder.h"
+#include "hovercraft_sim/geometry/polyhedron_builder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "hovercraft_sim/geometry/polyhedron_builder.h"
 #include "hovercraft_sim/math/tolerances.h"
-
-#include "polyhedron_builder.h"
 
 namespace hovercraft {
 namespace {
@@ -111,17 +110,15 @@ void checkConvex(const PolyhedronData& data) {
   const double tolerance = slack(data);
   for (std::size_t f = 0; f < data.faces.size(); ++f) {
     const Face& face = data.faces[f];
-    if (height(data, static_cast<std::int32_t>(f),
-               data.edges[at(data.ring_edge[at(face.ring_begin)])].vertex[0]) > tolerance ||
-        dot(face.normal, data.center) - face.offset >= 0.0) {
-      refuseWorst(data, "the faces do not look outward from one inner point");
-    }
     for (std::int32_t i = face.ring_begin; i < face.ring_begin + face.ring_count; ++i) {
       const Edge& edge = data.edges[at(data.ring_edge[at(i)])];
-      if (std::abs(height(data, static_cast<std::int32_t>(f), edge.vertex[0])) > tolerance ||
-          std::abs(height(data, static_cast<std::int32_t>(f), edge.vertex[1])) > tolerance) {
+      const std::int32_t start = edge.vertex[edge.ring[0] == i ? 0 : 1];
+      if (std::abs(height(data, static_cast<std::int32_t>(f), start)) > tolerance) {
         throw std::invalid_argument(fmt::format("convex polyhedron: face {} is not plane", f));
       }
+    }
+    if (dot(face.normal, data.center) - face.offset >= 0.0) {
+      refuseWorst(data, "the faces do not look outward from one inner point");
     }
   }
   for (const Edge& edge : data.edges) checkEdge(data, edge, tolerance);

@@ -44,9 +44,9 @@ constexpr double kMaxNanoseconds = 1e15;
 /// 1e-12 of the size.
 constexpr double kPlanarSlack = 1e-13;
 
-/// Dent (-, of the greatest coordinate) up to which a mesh counts as convex: four roundings to the
-/// single precision that mesh files are read with.
-constexpr double kMeshDentSlack = 4.0 * 5.9604644775390625e-8;
+/// Dent (-, of the greatest coordinate) up to which a mesh counts as convex: what the error of the
+/// coordinates that were read from a file makes of the height of a vertex over three others.
+constexpr double kMeshDentSlack = 4.0 * kMeshCoordinate;
 
 /// Sine of the angle (-) by which a direction may leave a Voronoi region and still count as on its
 /// boundary: a hundred roundings of a unit vector. Between two features that are as parallel as
