@@ -67,8 +67,8 @@ Scene makeScene(RandomBodies& random, int n, bool coherent) {
   const Vector3 axes(1.0, 0.7, 0.4);
   Scene scene{random.ellipsoidHull(n, axes), random.ellipsoidHull(n, axes), {}, {}, {}};
   const double half_degree = 0.5 * 3.14159265358979323846 / 180.0;
-  const Quaternion turn_A = quaternionFromAxisAngle(random.unitVector(), half_degree);
-  const Quaternion turn_B = quaternionFromAxisAngle(random.unitVector(), half_degree);
+  const Quaternion turn_A = hovercraft::quaternionFromAxisAngle(random.unitVector(), half_degree);
+  const Quaternion turn_B = hovercraft::quaternionFromAxisAngle(random.unitVector(), half_degree);
   Quaternion q_A = random.orientation();
   Quaternion q_B = random.orientation();
   Vector3 p_B = 5.0 * random.unitVector();
@@ -172,9 +172,9 @@ Query fclQuery(const Scene& scene) {
 btTransform bulletTransform(const Pose& X) {
   const auto real = [](double value) { return static_cast<btScalar>(value); };
   const auto& R = X.R_AB;
-  return {{real(R(0, 0)), real(R(0, 1)), real(R(0, 2)), real(R(1, 0)), real(R(1, 1)), real(R(1, 2)),
-           real(R(2, 0)), real(R(2, 1)), real(R(2, 2))},
-          {real(X.p_AB.x()), real(X.p_AB.y()), real(X.p_AB.z())}};
+  const btMatrix3x3 basis(real(R(0, 0)), real(R(0, 1)), real(R(0, 2)), real(R(1, 0)), real(R(1, 1)),
+                          real(R(1, 2)), real(R(2, 0)), real(R(2, 1)), real(R(2, 2)));
+  return btTransform(basis, btVector3(real(X.p_AB.x()), real(X.p_AB.y()), real(X.p_AB.z())));
 }
 
 std::shared_ptr<btConvexHullShape> bulletBody(const ConvexPolyhedron& body) {
