@@ -72,7 +72,7 @@ packages_of_debian() {
       python3-tf2-msgs python3-visualization-msgs python3-rospy python3-rosservice python3-rosbag python3-roslaunch \
       python3-rostopic rosbash rosout ;;
     test)
-      echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-rosservice
+      echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-tf2-ros
       # The runtime of clang's sanitizers; before, it was part of what clang depends on.
       case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac
       ;;

@@ -34,7 +34,7 @@ boost::shared_ptr<ros::M_string> latchedHeader(const Message& message) {
 }  // namespace
 
 BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenario)
-    : file_(path), bag_(std::make_unique<rosbag::Bag>()), step_ns_(scenario.step_ns) {
+    : file_(path), bag_(new rosbag::Bag), step_ns_(scenario.step_ns) {
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     vehicles_.emplace_back(scenario, vehicle);
   }
@@ -46,15 +46,13 @@ BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenar
   writeConstants(scenario);
 }
 
-BagWriter::~BagWriter() {
-  if (!bag_) return;
+void BagWriter::BagDeleter::operator()(rosbag::Bag* bag) const {
   try {
-    bag_->close();
+    bag->close();
   } catch (const rosbag::BagException&) {
-    // The destructor of rosbag::Bag closes again, and would throw again; the disk is full, the
-    // error was reported, and the memory goes with the process.
-    static_cast<void>(bag_.release());
+    return;  // why was thrown to whoever wrote last
   }
+  delete bag;
 }
 
 ros::Time BagWriter::stampOfTick(hovercraft::Tick tick) const {

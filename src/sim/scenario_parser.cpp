@@ -43,7 +43,7 @@ Matrix3 parseInertia(const ConfigReader& vehicle) {
 }
 
 std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
-  const std::string file = reader.text("file");
+  std::string file = reader.text("file");
   const std::string scheme = "package://";
   if (file.rfind(scheme, 0) == 0) {
     const std::size_t slash = file.find('/', scheme.size());

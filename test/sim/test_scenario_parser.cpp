@@ -1,9 +1,5 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <functional>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -13,25 +9,19 @@
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
+#include "../support/files.h"
 #include "../support/scenario_text.h"
 
 namespace hovercraft {
 namespace {
 
 using testing::kMassByNumbers;
+using testing::messageOf;
 using testing::parsed;
 using testing::scenarioOfParts;
+using testing::TestFolder;
 using testing::validScenario;
 using testing::with;
-
-std::string complaintOf(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(ScenarioParser, ReadsEveryKey) {
   const Scenario scenario = parsed(validScenario());
@@ -140,7 +130,8 @@ TEST(ScenarioParser, PlanarCraftMayNotMoveOutOfThePlane) {
   EXPECT_EQ(testing::complaintAbout(gliding),
             "test.yaml: vehicles.alpha.initial.angular_velocity = [0.4, 0.5, 0.6]: does not fit "
             "model: planar, which moves in x, y and yaw only");
-  EXPECT_EQ(testing::complaintAbout(with(gliding, "[0.4, 0.5, 0.6]", "[0, 0, 0.6]")), "");
+  EXPECT_EQ(testing::complaintAbout(with(gliding, "[0.4, 0.5, 0.6]", "[0, 0, 0.6]")),
+            "nothing was thrown");
 }
 
 TEST(ScenarioParser, SomethingMustMove) {
@@ -155,7 +146,7 @@ TEST(ScenarioParser, SomethingMustMove) {
 }
 
 TEST(ScenarioParser, VehiclesAreSortedByNameAndNamesMayBeLong) {
-  const std::string text = validScenario();
+  const std::string& text = validScenario();
   const std::size_t start = text.find("    mass:");
   const std::string body = text.substr(start);
   const std::string head = text.substr(0, text.find("  alpha:"));
@@ -225,65 +216,49 @@ TEST(ScenarioParser, MeshesAreFoundByRelativeAbsoluteAndPackagePaths) {
     EXPECT_EQ(other.p_HB, relative.p_HB);
     EXPECT_EQ(other.I_BBo_B, relative.I_BBo_B);
   }
-  EXPECT_EQ(complaintOf([&] { parseScenario(YAML::Load(withMesh("cube.obj")), parameter_server); }),
+  EXPECT_EQ(messageOf([&] { parseScenario(YAML::Load(withMesh("cube.obj")), parameter_server); }),
             "/hovercraft: vehicles.alpha.parts[0].mesh.file = cube.obj: on the parameter server "
             "must be a package:// URL or an absolute path");
 }
 
 // ---- files --------------------------------------------------------------------------------------
 
-/// A file in a folder of its own; both are gone at the end.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text) {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("hovercraft_" + std::to_string(std::random_device()()));
-    std::filesystem::create_directory(folder_);
-    std::ofstream(path()) << text;
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  std::string path() const { return (folder_ / "scenario.yaml").string(); }
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
-};
-
 TEST(ScenarioFile, IsReadAndItsMeshesLieBesideIt) {
-  const TemporaryFile file(withMesh("hull.obj"));
-  std::filesystem::copy_file("test/data/cube.obj", file.folder() / "hull.obj");
-  EXPECT_EQ(loadScenario(file.path()).vehicles.at(0).mass_properties.mass, 2.0);
+  const TestFolder folder;
+  std::filesystem::copy_file("test/data/cube.obj", folder.file("hull.obj"));
+  EXPECT_EQ(loadScenario(folder.write("scenario.yaml", withMesh("hull.obj")))
+                .vehicles.at(0)
+                .mass_properties.mass,
+            2.0);
 }
 
 TEST(ScenarioFile, ThatIsMissingIsSaidToBeSo) {
-  EXPECT_EQ(complaintOf([] { loadScenario("nowhere/scenario.yaml"); }),
+  EXPECT_EQ(messageOf([] { loadScenario("nowhere/scenario.yaml"); }),
             "nowhere/scenario.yaml: there is no such file");
-  EXPECT_EQ(complaintOf([] { loadScenario("test"); }), "test: there is no such file");
+  EXPECT_EQ(messageOf([] { loadScenario("test"); }), "test: there is no such file");
 }
 
 TEST(ScenarioFile, ThatIsNotYamlIsSaidToBeSoWithTheLine) {
-  const TemporaryFile file("step_size: 0.001\nvehicles: [1, 2\n");
-  const std::string complaint = complaintOf([&] { loadScenario(file.path()); });
-  EXPECT_EQ(complaint.find(file.path() + ": not YAML: "), 0U) << complaint;
+  const TestFolder folder;
+  const std::string file = folder.write("scenario.yaml", "step_size: 0.001\nvehicles: [1, 2\n");
+  const std::string complaint = messageOf([&] { loadScenario(file); });
+  EXPECT_EQ(complaint.find(file + ": not YAML: "), 0U) << complaint;
   EXPECT_NE(complaint.find("line 3"), std::string::npos) << complaint;
 }
 
 TEST(ScenarioFile, ErrorsNameTheFile) {
-  const TemporaryFile file("step_size: 0\n");
-  EXPECT_EQ(complaintOf([&] { loadScenario(file.path()); }),
-            file.path() + ": step_size = 0: must be greater than 0");
+  const TestFolder folder;
+  const std::string file = folder.write("scenario.yaml", "step_size: 0\n");
+  EXPECT_EQ(messageOf([&] { loadScenario(file); }),
+            file + ": step_size = 0: must be greater than 0");
 }
 
 TEST(ScenarioFile, OfSeveralDocumentsIsRefused) {
-  const TemporaryFile file(validScenario() + "---\n" + validScenario());
-  EXPECT_EQ(complaintOf([&] { loadScenario(file.path()); }),
-            file.path() + ": must be one YAML document; it holds 2");
+  const TestFolder folder;
+  const std::string file =
+      folder.write("scenario.yaml", validScenario() + "---\n" + validScenario());
+  EXPECT_EQ(messageOf([&] { loadScenario(file); }),
+            file + ": must be one YAML document; it holds 2");
 }
 
 TEST(ScenarioFile, ThoseThatAreShippedParse) {
@@ -291,7 +266,7 @@ TEST(ScenarioFile, ThoseThatAreShippedParse) {
   for (const auto& entry : std::filesystem::directory_iterator("config")) {
     if (entry.path().extension() != ".yaml") continue;
     found.push_back(entry.path().filename().string());
-    EXPECT_EQ(complaintOf([&] { loadScenario(entry.path().string()); }), "");
+    EXPECT_EQ(messageOf([&] { loadScenario(entry.path().string()); }), "nothing was thrown");
   }
   for (const char* name : {"hovercraft.yaml", "mvwt.yaml"}) {
     EXPECT_EQ(std::count(found.begin(), found.end(), name), 1) << name;

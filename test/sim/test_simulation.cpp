@@ -40,7 +40,7 @@ std::uint64_t hashAfter(const Scenario& scenario, Tick ticks) {
 
 /// `vehicles` craft like that of validScenario(), named by `names`, each with a mass of its own.
 std::string fleet(const std::vector<std::string>& names) {
-  const std::string text = validScenario();
+  const std::string& text = validScenario();
   std::string result = text.substr(0, text.find("  alpha:"));
   for (const std::string& name : names) {
     const std::string mass = "mass: " + std::to_string(3 + name.size());

@@ -5,6 +5,8 @@
 
 #include "hovercraft_sim/sim/scenario_parser.h"
 
+#include "files.h"
+
 namespace hovercraft::testing {
 
 /// A valid scenario; each of its lines can be replaced by with().
@@ -63,14 +65,9 @@ inline Scenario parsed(const std::string& text) {
   return parseScenario(YAML::Load(text), source);
 }
 
-/// What parsing says, or "" if it says nothing.
+/// What parsing says.
 inline std::string complaintAbout(const std::string& text) {
-  try {
-    parsed(text);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return messageOf([&text] { parsed(text); });
 }
 
 }  // namespace hovercraft::testing

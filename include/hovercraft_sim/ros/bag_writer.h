@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <tf2_msgs/TFMessage.h>
@@ -21,13 +22,18 @@ class BagWriter : public hovercraft::StateSink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
   BagWriter(const std::string& path, const hovercraft::Scenario& scenario);
-  ~BagWriter() override;
 
   void state(const hovercraft::Simulation& simulation) override;
   void applied(const hovercraft::Command& command) override;
   void close() override;
 
  private:
+  /// Closes and deletes. On a full disk closing throws, and would again in the destructor of
+  /// rosbag::Bag, which ends the program: such a bag is never deleted.
+  struct BagDeleter {
+    void operator()(rosbag::Bag* bag) const;
+  };
+
   ros::Time stampOfTick(hovercraft::Tick tick) const;
   std::string topic(const VehicleMessages& messages, const char* name) const;
   void writeConstants(const hovercraft::Scenario& scenario);
@@ -36,7 +42,7 @@ class BagWriter : public hovercraft::StateSink {
              bool latched = false);
 
   hovercraft::PartialFile file_;
-  std::unique_ptr<rosbag::Bag> bag_;
+  std::unique_ptr<rosbag::Bag, BagDeleter> bag_;
   std::int64_t step_ns_;
   std::vector<VehicleMessages> vehicles_;
   tf2_msgs::TFMessage transforms_;

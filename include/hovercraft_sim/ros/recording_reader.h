@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <hovercraft_sim/RunEvent.h>
+#include <hovercraft_sim/State.h>
+
+#include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sim/command_log.h"
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft_ros {
+
+/// A place in a run: ticks count anew in each episode.
+struct RunTime {
+  std::uint32_t episode = 0;
+  hovercraft::Tick tick = 0;
+};
+inline bool operator<(const RunTime& a, const RunTime& b) {
+  return a.episode != b.episode ? a.episode < b.episode : a.tick < b.tick;
+}
+
+/// Everything in a bag that a replay needs, each list in the order of the run.
+struct Recording {
+  struct RecordedCommand {
+    RunTime time;
+    hovercraft::Command command;
+  };
+  struct RecordedState {
+    RunTime time;
+    std::size_t vehicle = 0;
+    hovercraft_sim::State state;
+  };
+
+  std::string scenario_text;
+  std::vector<RecordedCommand> commands;
+  std::vector<hovercraft_sim::RunEvent> events;
+  std::vector<RecordedState> states;
+
+  /// Up to here every command and event is in the bag; beyond, `gap` says what is missing. The end
+  /// of time if nothing is.
+  RunTime known_until{UINT32_MAX, INT64_MAX};
+  std::string gap;
+  /// States that the bag lacks: they are fewer to compare, no more.
+  std::uint64_t missing_states = 0;
+};
+
+/// Reads topics by their types: State, AppliedCommand, RunEvent, and the scenario (std_msgs/String
+/// named .../scenario). Whether messages are missing is seen from header.seq, which a publisher
+/// counts up; a bag of `simulate`, where all are 0, is whole.
+/// @throws std::invalid_argument that names the file and what is wrong: no bag, no index, no
+/// scenario, no state, a vehicle that the scenario lacks.
+Recording readRecording(const std::string& path);
+
+}  // namespace hovercraft_ros

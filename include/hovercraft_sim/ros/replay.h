@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "hovercraft_sim/ros/recording_reader.h"
+#include "hovercraft_sim/sim/simulation.h"
+
+namespace hovercraft_ros {
+
+/// Where a replay and its recording part: the first state, and its first field in the order of
+/// State.msg.
+struct ReplayDifference {
+  RunTime time;
+  std::string vehicle;
+  std::string field;
+  std::string recorded;  // with every digit
+  std::string replayed;
+};
+
+struct ReplayResult {
+  std::optional<ReplayDifference> difference;
+  std::uint64_t compared_states = 0;
+  hovercraft::Tick simulated_ticks = 0;
+  std::uint64_t hash = 0;  // Simulation::hash() at the end
+  RunTime end;             // of what was compared
+  bool is_whole = true;    // false: known_until came before the end of the recording
+};
+
+/// What a replay hands on, each at its time; any may be empty.
+struct ReplayObserver {
+  std::function<void(const hovercraft::Simulation&)> on_state;  // where the recording holds a state
+  std::function<void(const hovercraft::Command&)> on_applied;
+};
+
+/// Runs again what a recording holds, commands and events at their ticks, and compares every
+/// recorded state bit for bit until the first difference or the first gap.
+/// @param scenario that it runs in; that of the recording, or another one to see what would have
+/// been.
+/// @throws std::invalid_argument if an event does not fit the scenario.
+ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scenario, bool compares,
+                    const ReplayObserver& observer = {});
+
+/// What the tool `replay` was asked for.
+struct ReplayRequest {
+  std::string bag;
+  std::string output;             // a bag to write anew, or empty
+  std::vector<std::string> sets;  // KEY.PATH=VALUE: changes of the scenario
+};
+
+/// Replays a bag and says in one line what came of it.
+/// @returns 0 identical, or the scenario was changed and there is nothing to compare; 1 different;
+/// 2 not all can be checked.
+/// @throws std::invalid_argument for whatever in the request or the bag is bad.
+int replayBag(const ReplayRequest& request, std::string& verdict);
+
+}  // namespace hovercraft_ros

@@ -1,0 +1,266 @@
+#include "hovercraft_sim/ros/replay.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#include <memory>
+#include <stdexcept>
+#include <yaml-cpp/yaml.h>
+
+#include <ros/package.h>
+
+#include "hovercraft_sim/ros/bag_writer.h"
+#include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+namespace hovercraft_ros {
+namespace {
+
+using hovercraft_sim::RunEvent;
+using hovercraft_sim::State;
+
+/// The first of several numbers that differ in their bits.
+class FieldComparison {
+ public:
+  void add(const char* field, double recorded, double replayed) {
+    if (field_ != nullptr || std::memcmp(&recorded, &replayed, sizeof(double)) == 0) return;
+    field_ = field;
+    recorded_ = fmt::format("{:.17g}", recorded);
+    replayed_ = fmt::format("{:.17g}", replayed);
+  }
+  void add(const char* field, const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b) {
+    add(field, a.x, b.x);
+    add(field, a.y, b.y);
+    add(field, a.z, b.z);
+  }
+  void addHash(std::uint64_t recorded, std::uint64_t replayed) {
+    if (field_ != nullptr || recorded == replayed) return;
+    field_ = "hash";
+    recorded_ = fmt::format("{:016x}", recorded);
+    replayed_ = fmt::format("{:016x}", replayed);
+  }
+
+  std::optional<ReplayDifference> result(const RunTime& time, const std::string& vehicle) const {
+    if (field_ == nullptr) return std::nullopt;
+    return ReplayDifference{time, vehicle, field_, recorded_, replayed_};
+  }
+
+ private:
+  const char* field_ = nullptr;
+  std::string recorded_;
+  std::string replayed_;
+};
+
+std::optional<ReplayDifference> difference(const Recording::RecordedState& recorded,
+                                           const State& replayed, const std::string& vehicle) {
+  const State& state = recorded.state;
+  FieldComparison fields;
+  fields.add("position.x", state.pose.position.x, replayed.pose.position.x);
+  fields.add("position.y", state.pose.position.y, replayed.pose.position.y);
+  fields.add("position.z", state.pose.position.z, replayed.pose.position.z);
+  fields.add("orientation.x", state.pose.orientation.x, replayed.pose.orientation.x);
+  fields.add("orientation.y", state.pose.orientation.y, replayed.pose.orientation.y);
+  fields.add("orientation.z", state.pose.orientation.z, replayed.pose.orientation.z);
+  fields.add("orientation.w", state.pose.orientation.w, replayed.pose.orientation.w);
+  fields.add("velocity", state.velocity, replayed.velocity);
+  fields.add("angular_velocity", state.angular_velocity, replayed.angular_velocity);
+  fields.add("momentum", state.momentum, replayed.momentum);
+  fields.add("angular_momentum", state.angular_momentum, replayed.angular_momentum);
+  for (std::size_t i = 0; i < state.thrust.size(); ++i) {
+    fields.add("thrust", state.thrust[i], replayed.thrust[i]);
+  }
+  fields.add("energy", state.energy, replayed.energy);
+  fields.addHash(state.hash, replayed.hash);
+  return fields.result(recorded.time, vehicle);
+}
+
+/// One run again, tick by tick, driven by the lists of a recording.
+class Replayer {
+ public:
+  Replayer(const Recording& recording, const hovercraft::Scenario& scenario,
+           const ReplayObserver& observer)
+      : recording_(recording), simulation_(scenario), observer_(observer) {
+    for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) messages_.emplace_back(scenario, i);
+    simulation_.on_applied = observer.on_applied;
+  }
+
+  ReplayResult run(bool compares) {
+    for (const Recording::RecordedState& recorded : recording_.states) {
+      // A command at the last known tick may be one of several: nothing after that tick is known.
+      if (recording_.known_until < recorded.time) {
+        result_.is_whole = false;
+        break;
+      }
+      advanceTo(recorded.time);
+      tellObserver(recorded.time);
+      if (compares) {
+        messages_[recorded.vehicle].fill(simulation_, recorded.state.header.stamp, episode_);
+        result_.difference = difference(recorded, messages_[recorded.vehicle].state(),
+                                        messages_[recorded.vehicle].name());
+        ++result_.compared_states;
+      }
+      result_.end = recorded.time;
+      if (result_.difference) break;
+    }
+    result_.hash = simulation_.hash();
+    return result_;
+  }
+
+ private:
+  bool beginsEpisode(const RunEvent& event) const {
+    return event.kind == RunEvent::RESET || event.kind == RunEvent::LOAD;
+  }
+
+  void advanceTo(const RunTime& time) {
+    while (episode_ < time.episode) beginNextEpisode(time);
+    while (simulation_.tick() < time.tick) {
+      applyEventsOfThisTick();
+      pushCommandsOfThisTick();
+      simulation_.step();
+      ++result_.simulated_ticks;
+    }
+  }
+
+  void beginNextEpisode(const RunTime& wanted) {
+    // Events that came after the last recorded state of the old episode no longer matter.
+    while (event_ < recording_.events.size() &&
+           !(beginsEpisode(recording_.events[event_]) &&
+             recording_.events[event_].episode == episode_ + 1)) {
+      ++event_;
+    }
+    if (event_ == recording_.events.size()) {
+      throw std::invalid_argument(
+          fmt::format("the recording lacks the event that began episode {}: record ~events as well",
+                      wanted.episode));
+    }
+    applyEvent(recording_.events[event_++], simulation_);
+    ++episode_;
+    while (command_ < recording_.commands.size() &&
+           recording_.commands[command_].time.episode < episode_) {
+      ++command_;
+    }
+  }
+
+  void applyEventsOfThisTick() {
+    while (event_ < recording_.events.size()) {
+      const RunEvent& event = recording_.events[event_];
+      if (beginsEpisode(event) || event.episode != episode_ ||
+          static_cast<hovercraft::Tick>(event.tick) != simulation_.tick()) {
+        return;
+      }
+      applyEvent(event, simulation_);
+      ++event_;
+    }
+  }
+
+  void pushCommandsOfThisTick() {
+    while (command_ < recording_.commands.size()) {
+      const Recording::RecordedCommand& next = recording_.commands[command_];
+      if (next.time.episode != episode_ || next.time.tick != simulation_.tick()) return;
+      simulation_.push(next.command);
+      ++command_;
+    }
+  }
+
+  void tellObserver(const RunTime& time) {
+    const bool is_new = !told_ || *told_ < time;
+    if (is_new && observer_.on_state) observer_.on_state(simulation_);
+    told_ = time;
+  }
+
+  const Recording& recording_;
+  hovercraft::Simulation simulation_;
+  const ReplayObserver& observer_;
+  std::vector<VehicleMessages> messages_;
+  std::uint32_t episode_ = 0;
+  std::size_t command_ = 0;
+  std::size_t event_ = 0;
+  std::optional<RunTime> told_;
+  ReplayResult result_;
+};
+
+/// Sets one key of the scenario's tree, which must exist there.
+void setKey(YAML::Node tree, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw std::invalid_argument("--set " + assignment + ": must be KEY.PATH=VALUE");
+  }
+  std::string path = assignment.substr(0, equals);
+  YAML::Node node = tree;
+  std::size_t dot = 0;
+  while ((dot = path.find('.')) != std::string::npos) {
+    node.reset(node[path.substr(0, dot)]);
+    path.erase(0, dot + 1);
+    if (!node.IsDefined() || !node.IsMap()) {
+      throw std::invalid_argument("--set " + assignment + ": there is no such key in the scenario");
+    }
+  }
+  const YAML::Node& parent = node;
+  if (!parent[path].IsDefined()) {
+    throw std::invalid_argument("--set " + assignment + ": there is no such key in the scenario");
+  }
+  node[path] = YAML::Load(assignment.substr(equals + 1));
+}
+
+std::string verdictOf(const ReplayResult& result, const Recording& recording) {
+  const std::string missing_states =
+      recording.missing_states == 0
+          ? ""
+          : fmt::format("; {} states were not recorded", recording.missing_states);
+  const std::string scope =
+      fmt::format("{} ticks, {} states compared, hash {:016x}{}", result.simulated_ticks,
+                  result.compared_states, result.hash, missing_states);
+  if (result.difference) {
+    const ReplayDifference& found = *result.difference;
+    return fmt::format("different: episode {}, tick {}, {}: {} = {} recorded, {} replayed",
+                       found.time.episode, found.time.tick, found.vehicle, found.field,
+                       found.recorded, found.replayed);
+  }
+  if (!result.is_whole) {
+    return fmt::format(
+        "identical up to episode {}, tick {} ({}); what follows cannot be checked: the bag lacks "
+        "{}",
+        result.end.episode, result.end.tick, scope, recording.gap);
+  }
+  return "identical: " + scope;
+}
+
+}  // namespace
+
+ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scenario, bool compares,
+                    const ReplayObserver& observer) {
+  return Replayer(recording, scenario, observer).run(compares);
+}
+
+int replayBag(const ReplayRequest& request, std::string& verdict) {
+  const Recording recording = readRecording(request.bag);
+  YAML::Node tree = YAML::Load(recording.scenario_text);
+  for (const std::string& assignment : request.sets) setKey(tree, assignment);
+  const hovercraft::Scenario scenario = hovercraft::parseScenario(
+      tree, {request.bag + ": ~scenario", "",
+             [](const std::string& package) { return ros::package::getPath(package); }});
+
+  std::unique_ptr<BagWriter> writer;
+  ReplayObserver observer;
+  if (!request.output.empty()) {
+    writer = std::make_unique<BagWriter>(request.output, scenario);
+    observer.on_state = [&writer](const hovercraft::Simulation& state) { writer->state(state); };
+    observer.on_applied = [&writer](const hovercraft::Command& command) {
+      writer->applied(command);
+    };
+  }
+  const bool compares = request.sets.empty();
+  const ReplayResult result = replay(recording, scenario, compares, observer);
+  if (writer) writer->close();
+  if (!compares) {
+    verdict = fmt::format("replayed with changes: {} ticks, hash {:016x}", result.simulated_ticks,
+                          result.hash);
+    return 0;
+  }
+  verdict = verdictOf(result, recording);
+  if (result.difference) return 1;
+  return result.is_whole ? 0 : 2;
+}
+
+}  // namespace hovercraft_ros

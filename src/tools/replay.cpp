@@ -1,0 +1,40 @@
+#include "hovercraft_sim/ros/replay.h"
+
+#include <boost/program_options.hpp>
+#include <exception>
+#include <iostream>
+
+int main(int argc, char** argv) {
+  namespace po = boost::program_options;
+  try {
+    hovercraft_ros::ReplayRequest request;
+    po::options_description options("Options");
+    auto add = options.add_options();
+    add("bag", po::value(&request.bag)->required(), "recording of the node, or bag of simulate");
+    add("output,o", po::value(&request.output), "bag to write the run into, anew");
+    add("set,s", po::value(&request.sets)->composing(),
+        "KEY.PATH=VALUE: change the scenario first, such as vehicles.hovercraft.mass=6");
+    add("help,h", "this text");
+    po::positional_options_description positions;
+    positions.add("bag", 1);
+    po::variables_map values;
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positions).run(),
+              values);
+    if (values.count("help") > 0) {
+      std::cout
+          << "replay RUN.bag [--output OUT.bag] [--set KEY.PATH=VALUE ...]\n"
+             "Runs again what a bag recorded and compares every state bit for bit.\n"
+             "Exit status: 0 identical, 1 different or bad input, 2 not all can be checked.\n\n"
+          << options;
+      return 0;
+    }
+    po::notify(values);
+    std::string verdict;
+    const int status = hovercraft_ros::replayBag(request, verdict);
+    std::cout << verdict << '\n';
+    return status;
+  } catch (const std::exception& error) {
+    std::cerr << "replay: " << error.what() << '\n';
+    return 1;
+  }
+}

@@ -1,0 +1,220 @@
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TwistStamped.h>
+#include <hovercraft_sim/State.h>
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <std_msgs/String.h>
+
+#include "hovercraft_sim/ros/trajectory_file.h"
+
+#include "../support/files.h"
+
+namespace hovercraft_ros {
+namespace {
+
+using hovercraft::Trajectory;
+using hovercraft::Vector3;
+using hovercraft::testing::messageOf;
+using hovercraft::testing::TestFolder;
+
+constexpr double kRounding = 1e-15;
+constexpr std::int64_t kEpochNs = 1700000000123456789;
+constexpr std::int64_t kStepNs = 2000000;
+
+ros::Time stampOfTick(std::int64_t tick) {
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(kEpochNs + tick * kStepNs));
+  return stamp;
+}
+
+/// At (1, 2, 3), the bow to the left (yaw 90°).
+geometry_msgs::Pose somePose() {
+  geometry_msgs::Pose pose;
+  pose.position.x = 1.0;
+  pose.position.y = 2.0;
+  pose.position.z = 3.0;
+  pose.orientation.z = std::sqrt(0.5);
+  pose.orientation.w = std::sqrt(0.5);
+  return pose;
+}
+
+hovercraft_sim::State stateAt(std::int64_t tick) {
+  hovercraft_sim::State state;
+  state.header.stamp = stampOfTick(tick);
+  state.tick = static_cast<std::uint64_t>(tick);
+  state.pose = somePose();
+  state.velocity.x = 4.0;
+  state.angular_velocity.z = 5.0;
+  return state;
+}
+
+/// Forward at 4 m/s, turning at 5 rad/s about the craft's x axis.
+geometry_msgs::Twist someTwist() {
+  geometry_msgs::Twist twist;
+  twist.linear.x = 4.0;
+  twist.angular.x = 5.0;
+  return twist;
+}
+
+nav_msgs::Odometry odomAt(std::int64_t tick) {
+  nav_msgs::Odometry odom;
+  odom.header.stamp = stampOfTick(tick);
+  odom.pose.pose = somePose();
+  odom.twist.twist = someTwist();
+  return odom;
+}
+
+geometry_msgs::PoseStamped poseAt(std::int64_t tick) {
+  geometry_msgs::PoseStamped pose;
+  pose.header.stamp = stampOfTick(tick);
+  pose.pose = somePose();
+  return pose;
+}
+
+geometry_msgs::TwistStamped twistAt(std::int64_t tick) {
+  geometry_msgs::TwistStamped twist;
+  twist.header.stamp = stampOfTick(tick);
+  twist.twist = someTwist();
+  return twist;
+}
+
+class TrajectoryFile : public ::testing::Test {
+ protected:
+  void write(const std::function<void(rosbag::Bag&)>& fill) const {
+    rosbag::Bag bag(path_, rosbag::bagmode::Write);
+    bag.write("/chatter", stampOfTick(0), std_msgs::String());
+    fill(bag);
+  }
+
+  std::string errorOf() const {
+    const std::string message = messageOf([&] { readTrajectories(path_); });
+    return message.rfind(path_, 0) == 0 ? "run.bag" + message.substr(path_.size()) : message;
+  }
+
+  TestFolder folder_;
+  std::string path_ = folder_.file("run.bag");
+};
+
+TEST_F(TrajectoryFile, PrefersStateAndCountsItsTimeFromTickZero) {
+  write([](rosbag::Bag& bag) {
+    for (const std::int64_t tick : {5, 10, 20}) {
+      bag.write("/craft/odom", stampOfTick(tick), odomAt(tick));
+      bag.write("/craft/state", stampOfTick(tick), stateAt(tick));
+    }
+  });
+  const auto read = readTrajectories(path_);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].vehicle, "craft");
+  EXPECT_EQ(read[0].source, path_ + ": /craft/state, centre of mass");
+  EXPECT_FALSE(read[0].holds_time_zero);
+  ASSERT_EQ(read[0].samples.size(), 3U);
+  EXPECT_EQ(read[0].samples[0].time_ns, 5 * kStepNs);
+  EXPECT_EQ(read[0].samples[2].time_ns, 20 * kStepNs);
+  EXPECT_EQ(read[0].samples[0].p_WB, Vector3(1.0, 2.0, 3.0));
+  EXPECT_EQ(read[0].samples[0].v_WB, Vector3(4.0, 0.0, 0.0));
+  EXPECT_EQ(read[0].samples[0].w_WB, Vector3(0.0, 0.0, 5.0));
+}
+
+TEST_F(TrajectoryFile, TurnsTheTwistOfOdometryIntoWorldAxes) {
+  write([](rosbag::Bag& bag) {
+    bag.write("/craft/odom", stampOfTick(5), odomAt(5));
+    bag.write("/craft/pose", stampOfTick(5), poseAt(5));
+  });
+  const auto read = readTrajectories(path_);
+  ASSERT_EQ(read.size(), 1U);
+  EXPECT_EQ(read[0].source, path_ + ": /craft/odom, base_link");
+  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + 5 * kStepNs);
+  EXPECT_LT((read[0].samples[0].v_WB - Vector3(0.0, 4.0, 0.0)).norm(), 4.0 * kRounding);
+  EXPECT_LT((read[0].samples[0].w_WB - Vector3(0.0, 5.0, 0.0)).norm(), 5.0 * kRounding);
+}
+
+TEST_F(TrajectoryFile, TakesPoseWithTheTwistOfTheSameStamp) {
+  write([](rosbag::Bag& bag) {
+    for (const std::int64_t tick : {1, 2}) {
+      bag.write("/craft/pose", stampOfTick(tick), poseAt(tick));
+      bag.write("/craft/twist", stampOfTick(tick), twistAt(tick));
+    }
+  });
+  const auto read = readTrajectories(path_);
+  EXPECT_EQ(read[0].source, path_ + ": /craft/pose, base_link, with /craft/twist");
+  EXPECT_TRUE(read[0].has_velocities);
+  ASSERT_EQ(read[0].samples.size(), 2U);
+  EXPECT_LT((read[0].samples[1].v_WB - Vector3(0.0, 4.0, 0.0)).norm(), 4.0 * kRounding);
+}
+
+TEST_F(TrajectoryFile, APoseWithoutItsTwistHasNoVelocities) {
+  write([](rosbag::Bag& bag) {
+    bag.write("/craft/twist", stampOfTick(1), twistAt(1));
+    for (const std::int64_t tick : {1, 2}) {
+      bag.write("/craft/pose", stampOfTick(tick), poseAt(tick));
+    }
+  });
+  EXPECT_FALSE(readTrajectories(path_)[0].has_velocities);
+}
+
+TEST_F(TrajectoryFile, EachNamespaceIsATrajectory) {
+  write([](rosbag::Bag& bag) {
+    bag.write("/fleet/beta/odom", stampOfTick(1), odomAt(1));
+    bag.write("/alpha/state", stampOfTick(1), stateAt(1));
+    bag.write("/gamma/state", stampOfTick(1), poseAt(1));  // another type: no state
+  });
+  const auto read = readTrajectories(path_);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].vehicle, "alpha");
+  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + kStepNs);  // one state does not tell the step
+  EXPECT_EQ(read[1].vehicle, "fleet/beta");
+}
+
+TEST_F(TrajectoryFile, ABagWithoutATrajectoryIsAnError) {
+  write([](rosbag::Bag&) {});
+  EXPECT_EQ(errorOf(),
+            "run.bag: there is no trajectory in it: must have a topic that ends in /state, /odom "
+            "or /pose, of its type");
+}
+
+TEST_F(TrajectoryFile, EveryBadMessageIsNamedByTopicTimeAndRule) {
+  const auto check = [&](const std::function<void(rosbag::Bag&)>& fill, const std::string& error) {
+    write(fill);
+    EXPECT_EQ(errorOf(), "run.bag: " + error);
+  };
+  check(
+      [](rosbag::Bag& bag) {
+        auto state = stateAt(1);
+        state.velocity.y = NAN;
+        bag.write("/craft/state", stampOfTick(1), state);
+      },
+      "/craft/state at 1700000000.125456789: every number must be finite");
+  check(
+      [](rosbag::Bag& bag) {
+        auto pose = poseAt(1);
+        pose.pose.orientation = geometry_msgs::Quaternion();
+        bag.write("/craft/pose", stampOfTick(1), pose);
+      },
+      "/craft/pose at 1700000000.125456789: the quaternion must not be 0");
+  check(
+      [](rosbag::Bag& bag) {
+        bag.write("/craft/odom", stampOfTick(1), odomAt(1));
+        bag.write("/craft/odom", stampOfTick(2), odomAt(1));
+      },
+      "/craft/odom at 1700000000.127456789: its time must be later than that of the message "
+      "before it");
+  check(
+      [](rosbag::Bag& bag) {
+        bag.write("/craft/state", stampOfTick(1), stateAt(1));
+        auto late = stateAt(2);
+        late.header.stamp += ros::Duration(0, 1);
+        bag.write("/craft/state", stampOfTick(2), late);
+        bag.write("/craft/state", stampOfTick(3), stateAt(3));
+      },
+      "/craft/state: stamps must be a whole number of steps of one length from tick to tick");
+}
+
+}  // namespace
+}  // namespace hovercraft_ros

@@ -1,0 +1,22 @@
+"""What the Python rostests share: services of the node, and waiting on a condition with a deadline."""
+
+import threading
+import time
+
+import rospy
+
+DEADLINE = 60.0  # s of wall time to wait for anything
+
+
+def service(name, kind):
+    """A service of the node, once it is there."""
+    rospy.wait_for_service('/hovercraft_sim/' + name, timeout=DEADLINE)
+    return rospy.ServiceProxy('/hovercraft_sim/' + name, kind)
+
+
+def wait_until(condition, what):
+    deadline = time.monotonic() + DEADLINE
+    while not condition():
+        if time.monotonic() > deadline:
+            raise AssertionError(f'waited {DEADLINE} s of wall time for {what}')
+        threading.Event().wait(0.005)
