@@ -13,8 +13,8 @@ PreciseVector preciseWorld(const Matrix3& R, const PreciseVector& shift, const V
 }  // namespace
 
 void FeatureWalk::startAlong(const Vector3& direction) {
-  const Vector3 along_A = transposeTimes(*R_[0], direction);
-  const Vector3 along_B = transposeTimes(*R_[1], Vector3(-direction));
+  const Vector3 along_A = transposeTimes(*rotation_[0], direction);
+  const Vector3 along_B = transposeTimes(*rotation_[1], Vector3(-direction));
   setFeature(0, FeatureKind::kVertex, supportSeed(*body_[0], along_A));
   setFeature(1, FeatureKind::kVertex, supportSeed(*body_[1], along_B));
   const auto bound =
@@ -93,13 +93,13 @@ FeatureWalk::Outcome FeatureWalk::vertexVertex() {
   const Vector3 u = precise_ ? preciseDifference() : Vector3(b - a);
   const double length = norm(u);
   if (length <= kTouching * scale_) return Outcome::kOverlap;
-  const Slope slope_A = steepest(0, transposeTimes(*R_[0], u));
+  const Slope slope_A = steepest(0, transposeTimes(*rotation_[0], u));
   const Verdict verdict_A = judge(slope_A.value, length);
   if (verdict_A == Verdict::kOutside) {
     moveAlong(0, slope_A);
     return Outcome::kMoved;
   }
-  const Slope slope_B = steepest(1, transposeTimes(*R_[1], Vector3(-u)));
+  const Slope slope_B = steepest(1, transposeTimes(*rotation_[1], Vector3(-u)));
   const Verdict verdict_B = judge(slope_B.value, length);
   if (verdict_B == Verdict::kOutside) {
     moveAlong(1, slope_B);
@@ -124,7 +124,7 @@ FeatureWalk::Outcome FeatureWalk::vertexEdge(int x) {
     setFeature(y, FeatureKind::kVertex, e.vertex[t <= 0.0 ? 0 : 1]);
     return Outcome::kMoved;
   }
-  const Vector3 away = precise_ ? transposeTimes(*R_[y], preciseVertexEdge(x))
+  const Vector3 away = precise_ ? transposeTimes(*rotation_[y], preciseVertexEdge(x))
                                 : Vector3(w - t * e.direction);  // from the edge to the vertex
   const double length = norm(away);
   if (length <= kTouching * scale_) return Outcome::kOverlap;
@@ -136,8 +136,8 @@ FeatureWalk::Outcome FeatureWalk::vertexEdge(int x) {
     setFeature(y, FeatureKind::kFace, e.face[slope_0 > slope_1 ? 0 : 1]);
     return Outcome::kMoved;
   }
-  const Vector3 u = times(*R_[y], Vector3(-away));  // from the vertex to the edge, in W
-  const Slope slope_X = steepest(x, transposeTimes(*R_[x], u));
+  const Vector3 u = times(*rotation_[y], Vector3(-away));  // from the vertex to the edge, in W
+  const Slope slope_X = steepest(x, transposeTimes(*rotation_[x], u));
   const Verdict verdict_X = judge(slope_X.value, length);
   if (verdict_X == Verdict::kOutside) {
     moveAlong(x, slope_X);
@@ -152,45 +152,56 @@ FeatureWalk::Outcome FeatureWalk::vertexEdge(int x) {
 }
 
 FeatureWalk::Outcome FeatureWalk::edgeEdge() {
-  const Data::Edge& ea = edge(0);
-  const Data::Edge& eb = edge(1);
-  const Vector3 a = toWorld(0, ea.p);
-  const Vector3 b = toWorld(1, eb.p);
-  const Vector3 da = times(*R_[0], ea.direction);
-  const Vector3 db = times(*R_[1], eb.direction);
-  const Vector3 w = b - a;
-  const Vector3 n = cross(da, db);
-  const double nn = dot(n, n);
+  Crossing crossing{toWorld(0, edge(0).p),
+                    toWorld(1, edge(1).p),
+                    times(*rotation_[0], edge(0).direction),
+                    times(*rotation_[1], edge(1).direction),
+                    {0.0, 0.0, 0.0},
+                    {0.0, 0.0, 0.0}};
+  crossing.w = crossing.b - crossing.a;
+  crossing.n = cross(crossing.da, crossing.db);
+  const double nn = dot(crossing.n, crossing.n);
   edge_sine_ = 0.0;
-  EdgePoints at_edges;
-  if (precise_) {
-    at_edges = preciseEdges();
-  } else {
-    double s = 0.0;
-    if (nn > kParallelEdges) s = dot(cross(w, db), n) / nn;
-    s = std::min(std::max(s, 0.0), ea.length);
-    double t = dot(Vector3(s * da - w), db);
-    if (t <= 0.0 || t >= eb.length) {
-      t = std::min(std::max(t, 0.0), eb.length);
-      s = dot(Vector3(w + t * db), da);
-    }
-    at_edges = {s, t, s <= 0.0 || s >= ea.length, t <= 0.0 || t >= eb.length, w + t * db - s * da};
-  }
-  if (at_edges.end_A) setFeature(0, FeatureKind::kVertex, ea.vertex[at_edges.s <= 0.0 ? 0 : 1]);
-  if (at_edges.end_B) setFeature(1, FeatureKind::kVertex, eb.vertex[at_edges.t <= 0.0 ? 0 : 1]);
-  if (at_edges.end_A || at_edges.end_B) return Outcome::kMoved;
-  point_[0] = a + at_edges.s * da;
-  point_[1] = b + at_edges.t * db;
+  const EdgePoints points = precise_ ? preciseEdges() : edgePoints(crossing, nn);
+  if (leaveEnds(points)) return Outcome::kMoved;
+  point_[0] = crossing.a + points.s * crossing.da;
+  point_[1] = crossing.b + points.t * crossing.db;
   if (nn >= kCrossingEdges && !precise_) {
     const double sine = std::sqrt(nn);
     edge_sine_ = sine;
-    const double height = dot(w, n) / sine;
+    const double height = dot(crossing.w, crossing.n) / sine;
     if (std::abs(height) <= kTouching * scale_) return Outcome::kOverlap;
-    return edgesMeet(n / (height > 0.0 ? sine : -sine), std::abs(height), kPointRounding / sine);
+    const double signed_sine = height > 0.0 ? sine : -sine;
+    return edgesMeet(crossing.n / signed_sine, std::abs(height), kPointRounding / sine);
   }
-  const double length = norm(at_edges.u);
+  const double length = norm(points.u);
   if (length <= kTouching * scale_) return Outcome::kOverlap;
-  return edgesMeet(at_edges.u / length, length, precise_ ? 0.0 : rounding_ / length);
+  return edgesMeet(points.u / length, length, precise_ ? 0.0 : rounding_ / length);
+}
+
+/// The closest points of two segments: of their lines where these lie inside, else of an end.
+FeatureWalk::EdgePoints FeatureWalk::edgePoints(const Crossing& c, double nn) const {
+  const double length_A = edge(0).length;
+  const double length_B = edge(1).length;
+  double s = 0.0;
+  if (nn > kParallelEdges) s = dot(cross(c.w, c.db), c.n) / nn;
+  s = std::min(std::max(s, 0.0), length_A);
+  double t = dot(Vector3(s * c.da - c.w), c.db);
+  const bool end_B = t <= 0.0 || t >= length_B;
+  if (end_B) {
+    t = std::min(std::max(t, 0.0), length_B);
+    s = dot(Vector3(c.w + t * c.db), c.da);
+  }
+  return {s, t, s <= 0.0 || s >= length_A, end_B, c.w + t * c.db - s * c.da};
+}
+
+/// An edge whose closest point is an end gives way to that vertex.
+bool FeatureWalk::leaveEnds(const EdgePoints& points) {
+  const Data::Edge& ea = edge(0);
+  const Data::Edge& eb = edge(1);
+  if (points.end_A) setFeature(0, FeatureKind::kVertex, ea.vertex[points.s <= 0.0 ? 0 : 1]);
+  if (points.end_B) setFeature(1, FeatureKind::kVertex, eb.vertex[points.t <= 0.0 ? 0 : 1]);
+  return points.end_A || points.end_B;
 }
 
 /// Two edges with the unit normal from A to B between their lines, known to within `error` (-); 0
@@ -200,7 +211,7 @@ FeatureWalk::Outcome FeatureWalk::edgesMeet(const Vector3& normal, double length
   bool uncertain = false;
   for (int side = 0; side < 2; ++side) {
     const Data::Edge& e = edge(side);
-    const Vector3 out = transposeTimes(*R_[side], side == 0 ? normal : Vector3(-normal));
+    const Vector3 out = transposeTimes(*rotation_[side], side == 0 ? normal : Vector3(-normal));
     const double slope_0 = dot(out, e.inward[0]);
     const double slope_1 = dot(out, e.inward[1]);
     const double slope = std::max(slope_0, slope_1);
@@ -219,15 +230,15 @@ FeatureWalk::Outcome FeatureWalk::edgesMeet(const Vector3& normal, double length
 
 /// From the vertex of A to that of B in W, right to the last bit but one.
 Vector3 FeatureWalk::preciseDifference() const {
-  const PreciseVector a = preciseWorld(*R_[0], PreciseVector(), vertex(0).p);
-  return (preciseWorld(*R_[1], PreciseVector(shift_), vertex(1).p) - a).rounded();
+  const PreciseVector a = preciseWorld(*rotation_[0], PreciseVector(), vertex(0).p);
+  return (preciseWorld(*rotation_[1], PreciseVector(shift_), vertex(1).p) - a).rounded();
 }
 
 /// The closest points of the two edges, right to the last bit but one.
 FeatureWalk::EdgePoints FeatureWalk::preciseEdges() const {
   const auto end = [&](int side, int i) {
     const Data::Vertex& v = body_[side]->vertices[at(edge(side).vertex[i])];
-    return preciseWorld(*R_[side], side == 0 ? PreciseVector() : PreciseVector(shift_), v.p);
+    return preciseWorld(*rotation_[side], side == 0 ? PreciseVector() : PreciseVector(shift_), v.p);
   };
   // Up to the margin past an end counts as on the edge.
   const double over_A = margin() / edge(0).length;
@@ -264,7 +275,8 @@ Vector3 FeatureWalk::preciseVertexEdge(int x) const {
   const PreciseVector zero;
   const PreciseVector shift(shift_);
   const auto place = [&](int side, std::int32_t index) {
-    return preciseWorld(*R_[side], side == 0 ? zero : shift, body_[side]->vertices[at(index)].p);
+    return preciseWorld(*rotation_[side], side == 0 ? zero : shift,
+                        body_[side]->vertices[at(index)].p);
   };
   const PreciseVector start = place(y, edge(y).vertex[0]);
   const PreciseVector along = place(y, edge(y).vertex[1]) - start;

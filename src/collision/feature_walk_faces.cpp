@@ -8,19 +8,22 @@ namespace {
 /// that halve.
 template <typename Function>
 std::int32_t topOfCycle(std::int32_t count, std::int32_t hint, const Function& f) {
-  const auto wrap = [count](std::int32_t i) {
-    return i < 0 ? i + count : (i >= count ? i - count : i);
-  };
+  const auto wrap = [count](std::int32_t i) { return (i + count) % count; };
   std::int32_t top = hint < 0 || hint >= count ? 0 : hint;
   double value = f(top);
-  if (f(wrap(top + 1)) <= value && f(wrap(top - 1)) <= value) return top;
-  for (std::int32_t stride = count / 4; stride >= 1; stride /= 2) {
-    for (std::int32_t moves = 0; moves < count; ++moves) {
-      const double right = f(wrap(top + stride));
-      const double left = f(wrap(top - stride));
-      if (right <= value && left <= value) break;
+  std::int32_t stride = 1;
+  bool first = true;
+  for (std::int32_t moves = 0; moves < 4 * count && stride >= 1; ++moves) {
+    const double right = f(wrap(top + stride));
+    const double left = f(wrap(top - stride));
+    if (right > value || left > value) {
       top = wrap(right > left ? top + stride : top - stride);
       value = std::max(right, left);
+      if (first) stride = std::max(1, count / 4);
+      first = false;
+    } else {
+      if (first) return top;
+      stride /= 2;
     }
   }
   return top;
@@ -107,8 +110,9 @@ FeatureWalk::Outcome FeatureWalk::vertexFace(int x) {
   }
   const double height = dot(f.normal, p) - f.offset;
   if (height <= kTouching * scale_) return leaveFace(x, p);
-  const Vector3 u = times(*R_[y], Vector3(-f.normal));  // unit, from the vertex to the face, in W
-  const Slope slope = steepest(x, transposeTimes(*R_[x], u));
+  const Vector3 u =
+      times(*rotation_[y], Vector3(-f.normal));  // unit, from the vertex to the face, in W
+  const Slope slope = steepest(x, transposeTimes(*rotation_[x], u));
   if (slope.value > kVoronoiSlack) {
     moveAlong(x, slope);
     return Outcome::kMoved;
@@ -137,42 +141,45 @@ FeatureWalk::Outcome FeatureWalk::leaveFace(int x, const Vector3& p) {
   return Outcome::kMoved;
 }
 
-/// Edge on side x, face on the other: the edge is cut to the prism over the face, and the lower end
-/// of what is left says where to go.
+/// Cuts the edge from `start` to `end` (frame of y) to the prism over the face.
+/// @returns false if nothing is left.
+bool FeatureWalk::cutToPrism(int y, const Vector3& start, const Vector3& end, Cut& cut) const {
+  const Data::Face& f = face(y);
+  for (std::int32_t i = f.ring_begin; i < f.ring_begin + f.ring_count; ++i) {
+    const Data::RingPlane& plane = body_[y]->ring[at(i)];
+    const double a = dot(plane.inward, start) - plane.offset + margin();
+    const double b = dot(plane.inward, end) - plane.offset + margin();
+    if (a < 0.0 && b < 0.0) return false;
+    if (a < 0.0 && a / (a - b) > cut.from) {
+      cut.from = a / (a - b);
+      cut.from_side = i;
+    } else if (b < 0.0 && a / (a - b) < cut.to) {
+      cut.to = a / (a - b);
+      cut.to_side = i;
+    }
+  }
+  return cut.from <= cut.to;
+}
+
+/// Edge on side x, face on the other: the lower end of what is over the face says where to go.
 FeatureWalk::Outcome FeatureWalk::edgeFace(int x) {
   const int y = 1 - x;
   const Data::Face& f = face(y);
   const Data::Edge& e = edge(x);
   const Vector3 start = toBody(y, toWorld(x, body_[x]->vertices[at(e.vertex[0])].p));
   const Vector3 end = toBody(y, toWorld(x, body_[x]->vertices[at(e.vertex[1])].p));
-  double from = 0.0;
-  double to = 1.0;
-  std::int32_t from_side = -1;
-  std::int32_t to_side = -1;
-  for (std::int32_t i = f.ring_begin; i < f.ring_begin + f.ring_count; ++i) {
-    const Data::RingPlane& plane = body_[y]->ring[at(i)];
-    const double a = dot(plane.inward, start) - plane.offset + margin();
-    const double b = dot(plane.inward, end) - plane.offset + margin();
-    if (a < 0.0 && b < 0.0) return nearestSide(x, start, end);
-    if (a < 0.0 && a / (a - b) > from) {
-      from = a / (a - b);
-      from_side = i;
-    } else if (b < 0.0 && a / (a - b) < to) {
-      to = a / (a - b);
-      to_side = i;
-    }
-  }
-  if (from > to) return nearestSide(x, start, end);
+  Cut cut;
+  if (!cutToPrism(y, start, end, cut)) return nearestSide(x, start, end);
   const double height_start = dot(f.normal, start) - f.offset;
   const double rise = dot(f.normal, Vector3(end - start));
-  const double height_from = height_start + from * rise;
-  const double height_to = height_start + to * rise;
+  const double height_from = height_start + cut.from * rise;
+  const double height_to = height_start + cut.to * rise;
   if (std::min(height_from, height_to) <= kTouching * scale_) {
     if (std::max(height_from, height_to) >= 0.0) return Outcome::kOverlap;
-    return leaveFace(x, start + (0.5 * (from + to)) * (end - start));
+    return leaveFace(x, start + (0.5 * (cut.from + cut.to)) * (end - start));
   }
   const bool lower_from = height_from < height_to;
-  const std::int32_t side = lower_from ? from_side : to_side;
+  const std::int32_t side = lower_from ? cut.from_side : cut.to_side;
   if (side >= 0) {
     setFeature(y, FeatureKind::kEdge, body_[y]->ring_edge[at(side)]);
   } else {

@@ -19,7 +19,7 @@ class OverlapSearch {
  public:
   OverlapSearch(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
                 const Pose& X_WB)
-      : body_{&A, &B}, R_{&X_WA.R_AB, &X_WB.R_AB}, shift_(X_WB.p_AB - X_WA.p_AB) {}
+      : body_{&A, &B}, rotation_{&X_WA.R_AB, &X_WB.R_AB}, shift_(X_WB.p_AB - X_WA.p_AB) {}
 
   void faces(int side);
   void edges();
@@ -27,14 +27,14 @@ class OverlapSearch {
 
  private:
   Vector3 toWorld(int side, const Vector3& p) const {
-    return side == 0 ? times(*R_[0], p) : Vector3(times(*R_[1], p) + shift_);
+    return side == 0 ? times(*rotation_[0], p) : Vector3(times(*rotation_[1], p) + shift_);
   }
   void arc(std::int32_t edge_A);
   void edgePair(std::int32_t edge_A, std::int32_t edge_B, const Vector3& outward);
   void edgePoints(LeastOverlap& result) const;
 
   const ConvexPolyhedron* body_[2];
-  const Matrix3* R_[2];
+  const Matrix3* rotation_[2];
   Vector3 shift_;
   double least_ = std::numeric_limits<double>::infinity();
   Vector3 normal_{0.0, 0.0, 0.0};  // from A to B, in W
@@ -47,8 +47,8 @@ void OverlapSearch::faces(int side) {
   int support = 0;
   for (std::int32_t f = 0; f < body_[side]->faceCount(); ++f) {
     const Data::Face& face = body_[side]->face(f);
-    const Vector3 outward = times(*R_[side], face.normal);
-    const Vector3 against = transposeTimes(*R_[other], Vector3(-outward));
+    const Vector3 outward = times(*rotation_[side], face.normal);
+    const Vector3 against = transposeTimes(*rotation_[other], Vector3(-outward));
     support = body_[other]->supportVertex(against);
     const Vector3 deepest = toWorld(other, body_[other]->vertex(support));
     const double depth = side == 0 ? face.offset - dot(outward, deepest)
@@ -71,10 +71,10 @@ void OverlapSearch::edges() {
 /// is left through an edge of B.
 void OverlapSearch::arc(std::int32_t edge_A) {
   const Data::Edge& edge = body_[0]->edge(edge_A);
-  const Vector3 first = times(*R_[0], body_[0]->face(edge.face[0]).normal);
-  const Vector3 second = times(*R_[0], body_[0]->face(edge.face[1]).normal);
-  const Vector3 from = transposeTimes(*R_[1], Vector3(-first));
-  const Vector3 to = transposeTimes(*R_[1], Vector3(-second));
+  const Vector3 first = times(*rotation_[0], body_[0]->face(edge.face[0]).normal);
+  const Vector3 second = times(*rotation_[0], body_[0]->face(edge.face[1]).normal);
+  const Vector3 from = transposeTimes(*rotation_[1], Vector3(-first));
+  const Vector3 to = transposeTimes(*rotation_[1], Vector3(-second));
   const Data& B = body_[1]->data();
   std::int32_t vertex = body_[1]->supportVertex(from);
   std::int32_t entered = -1;  // the edge of B that was crossed last
@@ -106,7 +106,7 @@ void OverlapSearch::arc(std::int32_t edge_A) {
 void OverlapSearch::edgePair(std::int32_t edge_A, std::int32_t edge_B, const Vector3& outward) {
   const Data::Edge& a = body_[0]->edge(edge_A);
   const Data::Edge& b = body_[1]->edge(edge_B);
-  const Vector3 n = cross(times(*R_[0], a.direction), times(*R_[1], b.direction));
+  const Vector3 n = cross(times(*rotation_[0], a.direction), times(*rotation_[1], b.direction));
   const double square = dot(n, n);
   if (!(square > kParallelEdges)) return;  // then a face of one of them has the same normal
   const double size = std::sqrt(square);
@@ -114,8 +114,8 @@ void OverlapSearch::edgePair(std::int32_t edge_A, std::int32_t edge_B, const Vec
   const double depth = dot(normal, Vector3(toWorld(0, a.p) - toWorld(1, b.p)));
   if (depth >= least_) return;
   // Rounding may take a pair for one that crosses: the support vertices have the last word.
-  const int top = body_[0]->supportVertexFrom(a.vertex[0], transposeTimes(*R_[0], normal));
-  const int low = body_[1]->supportVertexFrom(b.vertex[0], transposeTimes(*R_[1], -normal));
+  const int top = body_[0]->supportVertexFrom(a.vertex[0], transposeTimes(*rotation_[0], normal));
+  const int low = body_[1]->supportVertexFrom(b.vertex[0], transposeTimes(*rotation_[1], -normal));
   const double overlap =
       dot(normal, Vector3(toWorld(0, body_[0]->vertex(top)) - toWorld(1, body_[1]->vertex(low))));
   if (overlap >= least_) return;
@@ -131,8 +131,8 @@ void OverlapSearch::edgePoints(LeastOverlap& result) const {
   const Data::Edge& eb = body_[1]->edge(feature_[1].index);
   const Vector3 a = toWorld(0, ea.p);
   const Vector3 b = toWorld(1, eb.p);
-  const Vector3 da = times(*R_[0], ea.direction);
-  const Vector3 db = times(*R_[1], eb.direction);
+  const Vector3 da = times(*rotation_[0], ea.direction);
+  const Vector3 db = times(*rotation_[1], eb.direction);
   const Vector3 n = cross(da, db);
   const double s = dot(cross(Vector3(b - a), db), n) / dot(n, n);
   result.p_WCa = a + std::min(std::max(s, 0.0), ea.length) * da;

@@ -26,15 +26,18 @@ class RelativeMotion {
  public:
   RelativeMotion(const ConvexPolyhedron& A, const Motion& motion_A, const ConvexPolyhedron& B,
                  const Motion& motion_B, double duration)
-      : A_(motion_A), B_(motion_B), radius_A_(A.data().radius), radius_B_(B.data().radius) {
-    const Vector3 a = B_.a_WB - A_.a_WB;
-    const Vector3 w = B_.w_WB - A_.w_WB;
+      : motion_A_(motion_A),
+        motion_B_(motion_B),
+        radius_A_(A.data().radius),
+        radius_B_(B.data().radius) {
+    const Vector3 a = motion_B_.a_WB - motion_A_.a_WB;
+    const Vector3 w = motion_B_.w_WB - motion_A_.w_WB;
     acceleration_ = norm(a);
-    spin_A_ = norm(A_.w_WB);
-    spin_B_ = norm(B_.w_WB);
+    spin_A_ = norm(motion_A_.w_WB);
+    spin_B_ = norm(motion_B_.w_WB);
     spin_ = norm(w);
-    speed_ = norm(B_.v_WB - A_.v_WB) + acceleration_ * duration;
-    reach_ = norm(B_.p_WB - A_.p_WB) + speed_ * duration;
+    speed_ = norm(motion_B_.v_WB - motion_A_.v_WB) + acceleration_ * duration;
+    reach_ = norm(motion_B_.p_WB - motion_A_.p_WB) + speed_ * duration;
   }
 
   /// No two points of the bodies approach faster, m/s.
@@ -63,8 +66,8 @@ class RelativeMotion {
            spin_axes * spin_axes * (reach_ + radius);
   }
 
-  const Motion& A_;
-  const Motion& B_;
+  const Motion& motion_A_;
+  const Motion& motion_B_;
   double radius_A_;
   double radius_B_;
   double acceleration_;
@@ -77,12 +80,14 @@ class RelativeMotion {
 
 /// A plane across n, fixed in W, in A or in B, stays between the bodies for at least this long.
 double RelativeMotion::clearTimeAnywhere(double gap, const Instant& now) const {
-  const Vector3 w = B_.w_WB - A_.w_WB;
+  const Vector3 w = motion_B_.w_WB - motion_A_.w_WB;
   const double across = norm(cross(w, now.n));
-  const double in_W = now.closing + norm(cross(A_.w_WB, now.n)) * radius_A_ +
-                      norm(cross(B_.w_WB, now.n)) * radius_B_;
-  const double in_A = now.closing + dot(now.n, cross(A_.w_WB, now.from_A_B)) + across * radius_B_;
-  const double in_B = now.closing + dot(now.n, cross(B_.w_WB, now.from_A_B)) + across * radius_A_;
+  const double in_W = now.closing + norm(cross(motion_A_.w_WB, now.n)) * radius_A_ +
+                      norm(cross(motion_B_.w_WB, now.n)) * radius_B_;
+  const double in_A =
+      now.closing + dot(now.n, cross(motion_A_.w_WB, now.from_A_B)) + across * radius_B_;
+  const double in_B =
+      now.closing + dot(now.n, cross(motion_B_.w_WB, now.from_A_B)) + across * radius_A_;
   const double curvature_W =
       acceleration_ + spin_A_ * spin_A_ * radius_A_ + spin_B_ * spin_B_ * radius_B_;
   return std::max(
@@ -94,9 +99,12 @@ double RelativeMotion::clearTimeAnywhere(double gap, const Instant& now) const {
 /// Speed at which the witness points, fixed to their bodies, approach along n.
 double RelativeMotion::closingOfWitnesses(const ClosestFeatures& now, double t,
                                           const Instant& instant) const {
-  const Vector3 r_A = now.p_WCa - (A_.p_WB + t * (A_.v_WB + (0.5 * t) * A_.a_WB));
-  const Vector3 r_B = now.p_WCb - (B_.p_WB + t * (B_.v_WB + (0.5 * t) * B_.a_WB));
-  return instant.closing + dot(instant.n, Vector3(cross(A_.w_WB, r_A) - cross(B_.w_WB, r_B)));
+  const Vector3 r_A =
+      now.p_WCa - (motion_A_.p_WB + t * (motion_A_.v_WB + (0.5 * t) * motion_A_.a_WB));
+  const Vector3 r_B =
+      now.p_WCb - (motion_B_.p_WB + t * (motion_B_.v_WB + (0.5 * t) * motion_B_.a_WB));
+  return instant.closing +
+         dot(instant.n, Vector3(cross(motion_A_.w_WB, r_A) - cross(motion_B_.w_WB, r_B)));
 }
 
 /// While the face's normal stays in the cone of the vertex, the gap is the height of this vertex
@@ -133,9 +141,11 @@ double RelativeMotion::clearTimeOfEdges(const ClosestFeatures& now, double t, do
 }
 
 double RelativeMotion::clearTime(const ClosestFeatures& now, double t) const {
-  Instant instant{now.nhat_AB_W, (B_.v_WB - A_.v_WB) + t * (B_.a_WB - A_.a_WB),
-                  (B_.p_WB - A_.p_WB) + t * ((B_.v_WB - A_.v_WB) + (0.5 * t) * (B_.a_WB - A_.a_WB)),
-                  0.0};
+  Instant instant{
+      now.nhat_AB_W, (motion_B_.v_WB - motion_A_.v_WB) + t * (motion_B_.a_WB - motion_A_.a_WB),
+      (motion_B_.p_WB - motion_A_.p_WB) +
+          t * ((motion_B_.v_WB - motion_A_.v_WB) + (0.5 * t) * (motion_B_.a_WB - motion_A_.a_WB)),
+      0.0};
   instant.closing = -dot(instant.n, instant.v);
   double clear = clearTimeAnywhere(now.distance, instant);
   const FeatureKind a = now.feature_a.kind;
@@ -153,18 +163,18 @@ class Scene {
  public:
   Scene(const ConvexPolyhedron& A, const Motion& motion_A, const ConvexPolyhedron& B,
         const Motion& motion_B)
-      : A_(A), motion_A_(motion_A), B_(B), motion_B_(motion_B) {}
+      : body_A_(A), motion_A_(motion_A), body_B_(B), motion_B_(motion_B) {}
 
   ClosestFeatures at(double t) {
     ++queries_;
-    return closestFeatures(A_, motion_A_.at(t), B_, motion_B_.at(t), pair_);
+    return closestFeatures(body_A_, motion_A_.at(t), body_B_, motion_B_.at(t), pair_);
   }
   int queries() const { return queries_; }
 
  private:
-  const ConvexPolyhedron& A_;
+  const ConvexPolyhedron& body_A_;
   const Motion& motion_A_;
-  const ConvexPolyhedron& B_;
+  const ConvexPolyhedron& body_B_;
   const Motion& motion_B_;
   FeaturePair pair_;
   int queries_ = 0;
@@ -213,9 +223,9 @@ struct Halving {
 
 /// The intervals not yet cleared lie on a stack, the earliest on top; each is cleared by the
 /// distance in its middle, or halved.
-/// @param speed bound on the change of the distance, m/s. @param distanceAt 0 when they overlap.
+/// @param speed bound on the change of the distance, m/s. @param distance_at 0 when they overlap.
 template <typename Distance>
-Halving halve(const ImpactSearch& search, double speed, const Distance& distanceAt) {
+Halving halve(const ImpactSearch& search, double speed, const Distance& distance_at) {
   std::array<double, 128> ends{};
   std::size_t count = 0;
   ends[count++] = search.duration;
@@ -224,7 +234,7 @@ Halving halve(const ImpactSearch& search, double speed, const Distance& distance
     const double end = ends[count - 1];
     const double middle = 0.5 * (start + end);
     const double within = speed * (0.5 * (end - start));
-    if (distanceAt(middle) > within + 0.25 * search.tolerance) {
+    if (distance_at(middle) > within + 0.25 * search.tolerance) {
       start = end;
       if (--count == 0) return {ImpactStatus::kNone, start};
     } else if (within < 0.25 * search.tolerance || count == ends.size()) {

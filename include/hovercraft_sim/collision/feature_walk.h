@@ -21,7 +21,7 @@ class FeatureWalk {
   FeatureWalk(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
               const Pose& X_WB)
       : body_{&A.data(), &B.data()},
-        R_{&X_WA.R_AB, &X_WB.R_AB},
+        rotation_{&X_WA.R_AB, &X_WB.R_AB},
         shift_(X_WB.p_AB - X_WA.p_AB),
         scale_(body_[0]->radius + body_[1]->radius +
                ((std::abs(shift_.x()) + std::abs(shift_.y())) + std::abs(shift_.z()))),
@@ -39,7 +39,7 @@ class FeatureWalk {
 
   /// From the middle of A to the middle of B.
   Vector3 middleToMiddle() const {
-    return times(*R_[1], body_[1]->center) + shift_ - times(*R_[0], body_[0]->center);
+    return times(*rotation_[1], body_[1]->center) + shift_ - times(*rotation_[0], body_[0]->center);
   }
 
   /// Walks until the pair is certified, the bodies seem to overlap, or the bound is reached.
@@ -75,6 +75,25 @@ class FeatureWalk {
     Vector3 u{0.0, 0.0, 0.0};  // m, from A's point to B's, axes of W
   };
 
+  /// The part of an edge over a face, from share `from` to share `to` of its length, and the sides
+  /// of the face that cut it there, -1 for none.
+  struct Cut {
+    double from = 0.0;
+    double to = 1.0;
+    std::int32_t from_side = -1;
+    std::int32_t to_side = -1;
+  };
+
+  /// The lines of two edges, axes of W.
+  struct Crossing {
+    Vector3 a;   // m, vertex[0] of A's edge
+    Vector3 b;   // m, of B's
+    Vector3 da;  // unit
+    Vector3 db;
+    Vector3 w;  // m, b - a
+    Vector3 n;  // da × db
+  };
+
   Outcome step();
   Outcome vertexVertex();
   Outcome vertexEdge(int x);
@@ -88,9 +107,12 @@ class FeatureWalk {
   std::int32_t ringOutsideOfMany(int side, const Data::Face& face, const Vector3& p);
   Outcome edgesMeet(const Vector3& normal, double length, double error);
   Outcome leaveFace(int x, const Vector3& p);
+  bool cutToPrism(int y, const Vector3& start, const Vector3& end, Cut& cut) const;
   Outcome nearestSide(int x, const Vector3& p, const Vector3& q);
   Vector3 preciseDifference() const;
+  EdgePoints edgePoints(const Crossing& crossing, double nn) const;
   EdgePoints preciseEdges() const;
+  bool leaveEnds(const EdgePoints& points);
   Vector3 preciseVertexEdge(int x) const;
   bool moveVertex(int side);
 
@@ -105,10 +127,10 @@ class FeatureWalk {
     return body_[side]->faces[at(feature_[at(side)].index)];
   }
   Vector3 toWorld(int side, const Vector3& p) const {
-    return side == 0 ? times(*R_[0], p) : Vector3(times(*R_[1], p) + shift_);
+    return side == 0 ? times(*rotation_[0], p) : Vector3(times(*rotation_[1], p) + shift_);
   }
   Vector3 toBody(int side, const Vector3& p) const {
-    return transposeTimes(*R_[side], side == 0 ? p : Vector3(p - shift_));
+    return transposeTimes(*rotation_[side], side == 0 ? p : Vector3(p - shift_));
   }
   void setFeature(int side, FeatureKind kind, std::int32_t index) {
     feature_[at(side)] = {kind, index};
@@ -138,7 +160,7 @@ class FeatureWalk {
   }
 
   const Data* body_[2];
-  const Matrix3* R_[2];
+  const Matrix3* rotation_[2];
   Vector3 shift_;    // p_AB in W
   double scale_;     // m, bound on every coordinate
   double rounding_;  // m, of the difference of two points

@@ -36,8 +36,8 @@ inline std::int32_t supportSeed(const PolyhedronData& data, const Vector3& direc
   const std::int32_t last = data.support_cells - 1;
   const std::int32_t i = std::min(last, static_cast<std::int32_t>(s * scale + middle));
   const std::int32_t j = std::min(last, static_cast<std::int32_t>(t * scale + middle));
-  return data.support_map[static_cast<std::size_t>(
-      (side * data.support_cells + i) * data.support_cells + j)];
+  const std::int32_t cell = (side * data.support_cells + i) * data.support_cells + j;
+  return data.support_map[static_cast<std::size_t>(cell)];
 }
 
 }  // namespace hovercraft

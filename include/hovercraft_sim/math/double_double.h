@@ -75,8 +75,8 @@ struct PreciseVector {
   DoubleDouble z;
 
   PreciseVector() = default;
-  PreciseVector(const DoubleDouble& x_, const DoubleDouble& y_, const DoubleDouble& z_)
-      : x(x_), y(y_), z(z_) {}
+  PreciseVector(const DoubleDouble& first, const DoubleDouble& second, const DoubleDouble& third)
+      : x(first), y(second), z(third) {}
   explicit PreciseVector(const Vector3& v) : x(v.x()), y(v.y()), z(v.z()) {}
 
   Vector3 rounded() const { return {x.high, y.high, z.high}; }

@@ -39,9 +39,9 @@ constexpr double kNanosecondSlack = 1e-14;
 /// apart.
 constexpr double kMaxNanoseconds = 1e15;
 
-/// Height (-, of the greatest coordinate) up to which a vertex of a polyhedron counts as in the plane
-/// of a face: rounding of rotated coordinates is some 1e-16, and no error of a distance may pass
-/// 1e-12 of the size.
+/// Height (-, of the greatest coordinate) up to which a vertex of a polyhedron counts as in the
+/// plane of a face: rounding of rotated coordinates is some 1e-16, and no error of a distance may
+/// pass 1e-12 of the size.
 constexpr double kPlanarSlack = 1e-13;
 
 /// Dent (-, of the greatest coordinate) up to which a mesh counts as convex: what the error of the
@@ -57,8 +57,8 @@ constexpr double kVoronoiSlack = 2e-14;
 /// coordinate is a sum of four terms, eight roundings of 1.1e-16 bound it.
 constexpr double kPointRounding = 8e-16;
 
-/// Distance (-, of the sum of all coordinates) up to which two bodies touch: what rounding leaves of
-/// the sign.
+/// Distance (-, of the sum of all coordinates) up to which two bodies touch: what rounding leaves
+/// of the sign.
 constexpr double kTouching = 4e-15;
 
 /// Overlap (-, of the sum of all coordinates) up to which two bodies whose features met count as
@@ -76,8 +76,8 @@ constexpr double kPreciseParallelEdges = 1e-56;
 /// the direction of the distance better than the difference of the witness points.
 constexpr double kCrossingEdges = 1e-4;
 
-/// Bound on the number of queries in one search for a time of impact. Each step of the search closes
-/// a fixed share of the gap at least; ten to a hundred are usual.
+/// Bound on the number of queries in one search for a time of impact. Each step of the search
+/// closes a fixed share of the gap at least; ten to a hundred are usual.
 constexpr int kMaxImpactQueries = 10000;
 /// Distance (N) from its demand below which a lagging thrust has arrived: without a bound it would
 /// end among the denormal numbers, which processors multiply a hundred times slower.
