@@ -13,6 +13,7 @@ namespace {
 using testing::boxMesh;
 using testing::joined;
 using testing::starMesh;
+using testing::tetrahedronMesh;
 using testing::turnedOver;
 
 const Vector3 kOne(1.0, 1.0, 1.0);
@@ -31,6 +32,14 @@ TEST(Shells, PartsComeBackInTheOrderOfTheirFirstTriangles) {
 TEST(Shells, AConnectedMeshIsOneShell) {
   std::mt19937 engine(3);
   EXPECT_EQ(shellsOf(starMesh(engine)).size(), 1U);
+}
+
+// The sides 0-1 and 2-3 come first in two triangles each: the others must join them as well.
+TEST(Shells, EverySideOfATriangleJoins) {
+  TriangleMesh mesh = tetrahedronMesh({Vector3(0.0, 0.0, 0.0), Vector3(1.0, 0.0, 0.0),
+                                       Vector3(0.0, 1.0, 0.0), Vector3(0.0, 0.0, 1.0)});
+  mesh.triangles = {{1, 0, 2}, {0, 1, 3}, {2, 3, 1}, {3, 2, 0}};
+  EXPECT_EQ(shellsOf(mesh).size(), 1U);
 }
 
 TEST(Shells, WindingNumberIsOneInsideZeroOutsideAndAHalfOnAFace) {

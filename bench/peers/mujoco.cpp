@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#include <mujoco/mujoco.h>
+#include <stdexcept>
+
+#include "peer.h"
+
+namespace hovercraft::bench {
+namespace {
+
+constexpr int kModelErrorSize = 1000;  // characters, as in MuJoCo's samples
+
+/// A shape as Bullet's body has it; the inertia given prevails over that of the shape.
+std::string modelXml(const FreeCase& body, double h, const char* integrator) {
+  return fmt::format(
+      R"(<mujoco>
+  <option timestep="{:.17g}" gravity="0 0 0" integrator="{}"/>
+  <worldbody>
+    <body>
+      <freejoint/>
+      <inertial pos="0 0 0" mass="{:.17g}" diaginertia="{:.17g} {:.17g} {:.17g}"/>
+      <geom type="sphere" size="1"/>
+    </body>
+  </worldbody>
+</mujoco>)",
+      h, integrator, body.mass, body.moments.x(), body.moments.y(), body.moments.z());
+}
+
+mjModel* loadModel(const std::string& xml) {
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  const char* name = "body.xml";
+  mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(xml.size()));
+  std::memcpy(files->filedata[mj_findFileVFS(files.get(), name)], xml.data(), xml.size());
+  std::string error(kModelErrorSize, '\0');
+  mjModel* model = mj_loadXML(name, files.get(), &error[0], kModelErrorSize);
+  mj_deleteVFS(files.get());
+  if (model == nullptr) throw std::logic_error("MuJoCo refused the model: " + error);
+  return model;
+}
+
+class Mujoco : public Peer {
+ public:
+  Mujoco(const FreeCase& body, double h, const char* integrator)
+      : model_(loadModel(modelXml(body, h, integrator))), data_(mj_makeData(model_)) {
+    // The velocity of a free joint: of its origin in W, then angular in B.
+    std::copy(body.w_WB_B.data(), body.w_WB_B.data() + 3, data_->qvel + 3);
+    mj_forward(model_, data_);
+  }
+  ~Mujoco() override {
+    mj_deleteData(data_);
+    mj_deleteModel(model_);
+  }
+  Mujoco(const Mujoco&) = delete;
+  Mujoco& operator=(const Mujoco&) = delete;
+
+  void step(const Vector3& f_B) override {
+    mju_rotVecQuat(data_->xfrc_applied + 6 * kBody, f_B.data(), data_->qpos + 3);
+    mj_step(model_, data_);
+  }
+  Quaternion attitude() const override {
+    const mjtNum* q = data_->qpos + 3;
+    return {q[0], {q[1], q[2], q[3]}};
+  }
+
+ private:
+  static constexpr int kBody = 1;  // body 0 is the world
+
+  mjModel* model_;
+  mjData* data_;
+};
+
+}  // namespace
+
+std::unique_ptr<Peer> makeMujocoEuler(const FreeCase& body, double h) {
+  return std::make_unique<Mujoco>(body, h, "Euler");
+}
+
+std::unique_ptr<Peer> makeMujocoRungeKutta4(const FreeCase& body, double h) {
+  return std::make_unique<Mujoco>(body, h, "RK4");
+}
+
+}  // namespace hovercraft::bench
