@@ -15,6 +15,7 @@ namespace hovercraft_ros {
 namespace {
 
 constexpr const char* kScenarioTopic = "/hovercraft_sim/scenario";  // the node's ~scenario
+constexpr const char* kEventsTopic = "/hovercraft_sim/events";      // the node's ~events
 
 std::invalid_argument writeError(const std::string& path, const rosbag::BagException& error) {
   return std::invalid_argument(fmt::format("{}: cannot be written: {}", path, error.what()));
@@ -56,7 +57,7 @@ void BagWriter::BagDeleter::operator()(rosbag::Bag* bag) const {
 }
 
 ros::Time BagWriter::stampOfTick(hovercraft::Tick tick) const {
-  return stampOf(ros::Time(), std::max<hovercraft::Tick>(tick, 1) * step_ns_);
+  return stampOf(ros::Time(), std::max(epoch_ns_ + tick * step_ns_, step_ns_));
 }
 
 std::string BagWriter::topic(const VehicleMessages& messages, const char* name) const {
@@ -88,11 +89,11 @@ void BagWriter::writeConstants(const hovercraft::Scenario& scenario) {
 }
 
 void BagWriter::state(const hovercraft::Simulation& simulation) {
-  if (simulation.tick() == 0) return;
+  if (epoch_ns_ + simulation.timeNs() == 0) return;
   const ros::Time stamp = stampOfTick(simulation.tick());
   transforms_.transforms.clear();
   for (VehicleMessages& messages : vehicles_) {
-    messages.fill(simulation, stamp);
+    messages.fill(simulation, stamp, episode_);
     write(topic(messages, kPoseTopic), stamp, messages.pose());
     write(topic(messages, kTwistTopic), stamp, messages.twist());
     write(topic(messages, kOdomTopic), stamp, messages.odom());
@@ -106,7 +107,18 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
 void BagWriter::applied(const hovercraft::Command& command) {
   const VehicleMessages& messages = vehicles_[command.vehicle];
   const ros::Time stamp = stampOfTick(command.tick);
-  write(topic(messages, kCommandsTopic), stamp, messages.appliedCommand(command, stamp));
+  write(topic(messages, kCommandsTopic), stamp, messages.appliedCommand(command, stamp, episode_));
+}
+
+void BagWriter::event(const hovercraft_sim::RunEvent& event,
+                      const hovercraft::Simulation& simulation) {
+  hovercraft_sim::RunEvent written = event;
+  const auto tick = static_cast<hovercraft::Tick>(event.tick);
+  written.header.stamp = stampOfTick(tick);
+  write(kEventsTopic, written.header.stamp, written);
+  if (event.episode == episode_) return;
+  episode_ = event.episode;
+  epoch_ns_ += (tick - simulation.tick()) * step_ns_;
 }
 
 void BagWriter::close() {

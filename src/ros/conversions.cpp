@@ -3,6 +3,12 @@
 #include <cmath>
 
 namespace hovercraft_ros {
+namespace {
+
+// Distance (-) of a direction from -x below which it counts as -x: its square is no normal number.
+constexpr double kHalfTurn = 1e-150;
+
+}  // namespace
 
 using hovercraft::Command;
 using hovercraft::Quaternion;
@@ -54,10 +60,14 @@ HullMotion hullMotion(const hovercraft::Motion& motion, const Vector3& p_HB) {
 }
 
 Quaternion turnFromX(const Vector3& direction) {
-  const Quaternion twice_halfway = {1.0 + direction.x(),
-                                    hovercraft::cross(Vector3::UnitX(), direction)};
-  if (hovercraft::norm(twice_halfway) == 0.0) return {0.0, Vector3::UnitZ()};  // half a turn
-  return hovercraft::normalized(twice_halfway);
+  const double length = hovercraft::norm(direction);
+  const double x = direction.x();
+  const double across = direction.y() * direction.y() + direction.z() * direction.z();
+  // length + x, without the cancellation that a direction near -x would suffer.
+  const double twice_halfway = x > 0.0 ? length + x : across / (length - x);
+  const Quaternion turn = {twice_halfway, hovercraft::cross(Vector3::UnitX(), direction)};
+  if (hovercraft::norm(turn) < kHalfTurn) return {0.0, Vector3::UnitZ()};
+  return hovercraft::normalized(turn);
 }
 
 hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report) {

@@ -14,7 +14,6 @@
 namespace hovercraft_ros {
 namespace {
 
-constexpr double kReportPeriod = 1.0;           // s of wall time
 constexpr std::int64_t kIdleWaitNs = 4000000;   // how soon an idle node looks at its clock again
 constexpr std::int64_t kStepSliceNs = 2000000;  // of stepping between two looks at the callbacks
 constexpr std::uint32_t kEventQueue = 1000;     // every event belongs in a recording
@@ -64,9 +63,8 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
   diagnostics_.add("pace", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
     toDiagnostics(telemetry_message_, status);
   });
-  report_timer_ =
-      own.createWallTimer(ros::WallDuration(own.param("diagnostic_period", kReportPeriod)),
-                          [this](const ros::WallTimerEvent&) { report(); });
+  report_timer_ = own.createWallTimer(ros::WallDuration(config_.diagnostic_period),
+                                      [this](const ros::WallTimerEvent&) { report(); });
   setRealTimeFactor(config_.real_time_factor);
 }
 

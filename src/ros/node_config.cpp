@@ -81,6 +81,8 @@ NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node
   config.clock = reader.flagOr(config.clock, "clock");
   config.clock_rate = reader.numberOr(config.clock_rate, "clock_rate", kClockRateRule);
   readLockstep(reader, config);
+  config.diagnostic_period =
+      reader.numberOr(config.diagnostic_period, "diagnostic_period", hovercraft::kPositive);
   return config;
 }
 

@@ -134,12 +134,17 @@ class Replayer {
           fmt::format("the recording lacks the event that began episode {}: record ~events as well",
                       wanted.episode));
     }
-    applyEvent(recording_.events[event_++], simulation_);
+    apply(recording_.events[event_++]);
     ++episode_;
     while (command_ < recording_.commands.size() &&
            recording_.commands[command_].time.episode < episode_) {
       ++command_;
     }
+  }
+
+  void apply(const RunEvent& event) {
+    applyEvent(event, simulation_);
+    if (observer_.on_event) observer_.on_event(event, simulation_);
   }
 
   void applyEventsOfThisTick() {
@@ -149,7 +154,7 @@ class Replayer {
           static_cast<hovercraft::Tick>(event.tick) != simulation_.tick()) {
         return;
       }
-      applyEvent(event, simulation_);
+      apply(event);
       ++event_;
     }
   }
@@ -248,6 +253,11 @@ int replayBag(const ReplayRequest& request, std::string& verdict) {
     observer.on_state = [&writer](const hovercraft::Simulation& state) { writer->state(state); };
     observer.on_applied = [&writer](const hovercraft::Command& command) {
       writer->applied(command);
+    };
+  }
+  if (writer) {
+    observer.on_event = [&writer](const RunEvent& event, const hovercraft::Simulation& state) {
+      writer->event(event, state);
     };
   }
   const bool compares = request.sets.empty();

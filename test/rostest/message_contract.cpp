@@ -49,7 +49,7 @@ class MessageContract : public ::testing::Test {
   static void SetUpTestSuite() {
     Pilot pilot("tumbler");
     flight_ = std::make_unique<RecordedFlight>(outputTopics({"tumbler"}));
-    pilot.flyFor(400, {3.0, 0.5, 1.0});
+    pilot.flyFor(500, {3.0, 0.5, 1.0});
     recording_ = std::make_unique<const Recording>(flight_->finish());
   }
   static void TearDownTestSuite() {
@@ -78,7 +78,7 @@ class MessageContract : public ::testing::Test {
   static void expectStampsOnTheGrid(const std::vector<Message>& messages,
                                     const std::string& topic) {
     SCOPED_TRACE(topic);
-    ASSERT_GE(messages.size(), 40U);
+    ASSERT_GE(messages.size(), 20U);
     const std::uint64_t epoch = epochNs();
     for (std::size_t i = 0; i < messages.size(); ++i) {
       const std::uint64_t since = messages[i].header.stamp.toNSec() - epoch;
@@ -143,12 +143,12 @@ TEST_F(MessageContract, StampsIncreaseByOnePeriodOnTheGridOfTicks) {
   }
 }
 
-TEST_F(MessageContract, EveryTopicTellsOfTheSameMoments) {
-  // The recorder meets the topics one after the other, so that a few moments at the ends are
-  // missing.
-  const auto states = messages<hovercraft_sim::State>("state");
-  EXPECT_GE(moments().size(), 40U);
-  EXPECT_LE(moments().size(), states.size());
+TEST_F(MessageContract, EveryTopicTellsOfEveryMoment) {
+  const std::vector<Moment> all = moments();
+  ASSERT_GE(all.size(), 20U);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    ASSERT_EQ(all[i].state.tick, all[i - 1].state.tick + kTicksPerMessage);
+  }
 }
 
 TEST_F(MessageContract, FramesAreNamedAsPromised) {

@@ -1,6 +1,7 @@
 #include "pilot.h"
 
 #include <hovercraft_sim/ThrustCommand.h>
+#include <ros/init.h>
 #include <ros/transport_hints.h>
 #include <std_msgs/Float64.h>
 
@@ -74,10 +75,12 @@ void Pilot::flyUntil(const std::string& what, const hovercraft::Vector3& thrusts
 }
 
 void Pilot::waitFor(std::uint64_t ticks) {
+  ros::spinOnce();  // states that wait in the queue
   waitFor("has flown on", tickReaches(state_.tick + ticks));
 }
 
 void Pilot::flyFor(std::uint64_t ticks, const hovercraft::Vector3& thrusts) {
+  ros::spinOnce();
   flyUntil("has flown on", thrusts, tickReaches(state_.tick + ticks));
 }
 

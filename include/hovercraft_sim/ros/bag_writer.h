@@ -6,6 +6,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <vector>
 
+#include <hovercraft_sim/RunEvent.h>
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
@@ -27,6 +28,10 @@ class BagWriter : public hovercraft::StateSink {
   void applied(const hovercraft::Command& command) override;
   void close() override;
 
+  /// An event that was just applied, at the tick and of the episode that it names. After one that
+  /// begins an episode, stamps go on while ticks count anew, as in the node.
+  void event(const hovercraft_sim::RunEvent& event, const hovercraft::Simulation& simulation);
+
  private:
   /// Closes and deletes. On a full disk closing throws, and would again in the destructor of
   /// rosbag::Bag, which ends the program: such a bag is never deleted.
@@ -44,6 +49,8 @@ class BagWriter : public hovercraft::StateSink {
   hovercraft::PartialFile file_;
   std::unique_ptr<rosbag::Bag, BagDeleter> bag_;
   std::int64_t step_ns_;
+  std::int64_t epoch_ns_ = 0;  // of tick 0 of this episode
+  std::uint32_t episode_ = 0;
   std::vector<VehicleMessages> vehicles_;
   tf2_msgs::TFMessage transforms_;
 };

@@ -20,6 +20,7 @@ struct NodeConfig {
   bool lockstep = false;
   hovercraft::Tick control_period = 1;  // ticks between two commands in lockstep
   double lockstep_timeout = 5.0;        // s of wall time until a silent vehicle is named
+  double diagnostic_period = 1.0;       // s of wall time between two reports
 
   static constexpr double kMaxClockRate =
       250.0;  // Hz: each message costs every Python node some CPU

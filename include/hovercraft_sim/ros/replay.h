@@ -33,6 +33,8 @@ struct ReplayResult {
 struct ReplayObserver {
   std::function<void(const hovercraft::Simulation&)> on_state;  // where the recording holds a state
   std::function<void(const hovercraft::Command&)> on_applied;
+  /// After the event was applied.
+  std::function<void(const hovercraft_sim::RunEvent&, const hovercraft::Simulation&)> on_event;
 };
 
 /// Runs again what a recording holds, commands and events at their ticks, and compares every

@@ -1,0 +1,239 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <hovercraft_sim/AppliedCommand.h>
+#include <rosbag/bag.h>
+#include <std_msgs/String.h>
+
+#include "hovercraft_sim/ros/bag_writer.h"
+#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/live_run.h"
+#include "hovercraft_sim/ros/replay.h"
+#include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/sim/snapshot.h"
+
+#include "../support/files.h"
+#include "../support/scenarios.h"
+
+namespace hovercraft_ros {
+namespace {
+
+using hovercraft::Command;
+using hovercraft::Scenario;
+using hovercraft::testing::messageOf;
+using hovercraft::testing::scenarioOf;
+using hovercraft::testing::TestFolder;
+using hovercraft::testing::twoCraftYaml;
+using hovercraft_sim::RunEvent;
+
+/// A live run of two craft that is recorded as the node does: commands every 7 ticks, states every
+/// 10; a wrench, a new motion, a reset and a load on the way.
+class RecordedRun : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    recording_.scenario_text = hovercraft::toYaml(scenario_);
+    run_.simulation().on_applied = [this](const Command& command) {
+      recording_.commands.push_back({now(), command});
+    };
+    advance(45);
+    hovercraft_sim::ApplyWrench::Request wrench;
+    wrench.vehicle = "beta";
+    wrench.frame_id = "beta/base_link";
+    wrench.wrench.torque.z = 0.4;
+    wrench.duration = ros::Duration(0.3);
+    record(applyWrenchEvent(scenario_, wrench, "world", run_.simulation().tick()));
+    advance(38);
+    const std::string snapshot = hovercraft::toSnapshot(run_.simulation());
+    record(resetEvent(3));
+    advance(24);
+    hovercraft_sim::SetState::Request motion;
+    motion.vehicle = "alpha";
+    motion.pose.orientation.w = 1.0;
+    motion.twist.linear.y = 0.7;
+    record(setStateEvent(scenario_, motion));
+    advance(31);
+    record(loadEvent(snapshot));
+    advance(40);
+  }
+
+  RunTime now() const { return {run_.episode(), run_.simulation().tick()}; }
+
+  void record(const RunEvent& event) { recording_.events.push_back(run_.apply(event)); }
+
+  void advance(int ticks) {
+    hovercraft::Simulation& simulation = run_.simulation();
+    for (int n = 0; n < ticks; ++n) {
+      const hovercraft::Tick tick = simulation.tick();
+      if (tick % 7 == 0) {
+        const double thrust = 0.1 * static_cast<double>(tick % 30);
+        simulation.push({tick, 0, hovercraft::kAllEngines, {thrust, 0.0, 1.0}});
+        simulation.push({tick, 1, 5, {1.0 - thrust, 0.0, thrust}});
+      }
+      simulation.step();
+      if (simulation.tick() % 10 != 0) continue;
+      for (std::size_t vehicle = 0; vehicle < messages_.size(); ++vehicle) {
+        messages_[vehicle].fill(simulation, run_.stamp(), run_.episode());
+        recording_.states.push_back({now(), vehicle, messages_[vehicle].state()});
+      }
+    }
+  }
+
+  Scenario scenario_ = scenarioOf(twoCraftYaml());
+  LiveRun run_{scenario_, 0};
+  std::vector<VehicleMessages> messages_{{scenario_, 0}, {scenario_, 1}};
+  Recording recording_;
+};
+
+TEST_F(RecordedRun, IsReplayedToTheLastBit) {
+  const ReplayResult result = replay(recording_, scenario_, true);
+  EXPECT_FALSE(result.difference);
+  EXPECT_TRUE(result.is_whole);
+  EXPECT_EQ(result.compared_states, recording_.states.size());
+  EXPECT_EQ(result.end.episode, 2U);
+}
+
+TEST_F(RecordedRun, OneChangedBitIsFound) {
+  const std::size_t place = recording_.states.size() / 2;
+  double& number = recording_.states[place].state.angular_momentum.z;
+  number = std::nextafter(number, 100.0);
+  const ReplayResult result = replay(recording_, scenario_, true);
+  ASSERT_TRUE(result.difference);
+  EXPECT_EQ(result.difference->field, "angular_momentum");
+  EXPECT_EQ(result.difference->time.tick, recording_.states[place].time.tick);
+  EXPECT_EQ(result.difference->time.episode, recording_.states[place].time.episode);
+  EXPECT_EQ(result.compared_states, place + 1);
+}
+
+TEST_F(RecordedRun, AChangedHashIsFound) {
+  recording_.states.back().state.hash ^= 1U;
+  const ReplayResult result = replay(recording_, scenario_, true);
+  ASSERT_TRUE(result.difference);
+  EXPECT_EQ(result.difference->field, "hash");
+}
+
+TEST_F(RecordedRun, ALostCommandAndALostEventAreDifferences) {
+  Recording without_command = recording_;
+  without_command.commands.erase(without_command.commands.begin() + 4);
+  EXPECT_TRUE(replay(without_command, scenario_, true).difference);
+  Recording without_wrench = recording_;
+  without_wrench.events.erase(without_wrench.events.begin());
+  EXPECT_TRUE(replay(without_wrench, scenario_, true).difference);
+  Recording without_reset = recording_;
+  without_reset.events.erase(without_reset.events.begin() + 1);
+  EXPECT_THROW(replay(without_reset, scenario_, true), std::invalid_argument);
+}
+
+TEST_F(RecordedRun, NothingIsComparedBeyondWhatIsKnown) {
+  recording_.commands.resize(6);
+  recording_.known_until = recording_.commands.back().time;
+  const ReplayResult result = replay(recording_, scenario_, true);
+  EXPECT_FALSE(result.difference);
+  EXPECT_FALSE(result.is_whole);
+  EXPECT_FALSE(recording_.known_until < result.end);
+  EXPECT_GT(result.compared_states, 0U);
+}
+
+TEST_F(RecordedRun, AnotherMassParts) {
+  Recording until_load = recording_;  // a snapshot belongs to its scenario
+  until_load.events.pop_back();
+  while (until_load.states.back().time.episode == 2) until_load.states.pop_back();
+  Scenario heavier = scenario_;
+  heavier.vehicles[1].mass_properties.mass = 2.5;
+  const ReplayResult result = replay(until_load, heavier, true);
+  ASSERT_TRUE(result.difference);
+  EXPECT_EQ(result.difference->vehicle, "beta");
+  EXPECT_EQ(result.difference->time.tick, 10);
+}
+
+/// Writes the recording into a bag. @param skipped index of a command that gets lost, or -1.
+void writeBag(const Recording& recording, const std::vector<std::string>& names,
+              const std::string& path, int skipped) {
+  rosbag::Bag bag(path, rosbag::bagmode::Write);
+  const ros::Time time(1, 0);
+  std_msgs::String scenario;
+  scenario.data = recording.scenario_text;
+  bag.write("/hovercraft_sim/scenario", time, scenario);
+  std::vector<std::uint32_t> seq(names.size(), 0);
+  int index = 0;
+  for (const auto& recorded : recording.commands) {
+    hovercraft_sim::AppliedCommand message = toMessage(recorded.command);
+    message.episode = recorded.time.episode;
+    message.header.seq = seq[recorded.command.vehicle]++;
+    if (index++ != skipped)
+      bag.write("/" + names[recorded.command.vehicle] + "/commands", time, message);
+  }
+  std::uint32_t state_seq = 0;
+  for (const auto& recorded : recording.states) {
+    hovercraft_sim::State message = recorded.state;
+    message.header.seq = state_seq / static_cast<std::uint32_t>(names.size());
+    ++state_seq;
+    bag.write("/" + names[recorded.vehicle] + "/state", time, message);
+  }
+  std::uint32_t event_seq = 0;
+  for (RunEvent event : recording.events) {
+    event.header.seq = event_seq++;
+    bag.write("/hovercraft_sim/events", time, event);
+  }
+}
+
+TEST_F(RecordedRun, GoesThroughABagAndThroughItsOutput) {
+  const TestFolder folder;
+  writeBag(recording_, {"alpha", "beta"}, folder.file("run.bag"), -1);
+  std::string verdict;
+  EXPECT_EQ(replayBag({folder.file("run.bag"), folder.file("again.bag"), {}}, verdict), 0)
+      << verdict;
+  EXPECT_EQ(verdict.rfind("identical: ", 0), 0U) << verdict;
+  std::string verdict_of_output;
+  EXPECT_EQ(replayBag({folder.file("again.bag"), "", {}}, verdict_of_output), 0)
+      << verdict_of_output;
+  EXPECT_EQ(verdict_of_output, verdict);
+}
+
+TEST_F(RecordedRun, ALostMessageIsNamedAndGivesNoFalseVerdict) {
+  const TestFolder folder;
+  writeBag(recording_, {"alpha", "beta"}, folder.file("gap.bag"), 8);
+  std::string verdict;
+  EXPECT_EQ(replayBag({folder.file("gap.bag"), "", {}}, verdict), 2) << verdict;
+  EXPECT_NE(verdict.find(
+                "what follows cannot be checked: the bag lacks 1 message of /alpha/commands after"),
+            std::string::npos)
+      << verdict;
+}
+
+TEST_F(RecordedRun, ChangesOfTheScenarioAreChecked) {
+  const TestFolder folder;
+  recording_.events.resize(1);
+  while (recording_.states.back().time.episode > 0) recording_.states.pop_back();
+  const std::string bag = folder.file("run.bag");
+  writeBag(recording_, {"alpha", "beta"}, bag, -1);
+  std::string verdict;
+  EXPECT_EQ(replayBag({bag, "", {"vehicles.beta.mass=3"}}, verdict), 0);
+  EXPECT_EQ(verdict.rfind("replayed with changes: ", 0), 0U) << verdict;
+  for (const char* bad : {"vehicles.beta.weight=3", "mass", "vehicles.gamma.mass=3", "=3"}) {
+    EXPECT_NE(messageOf([&] {
+                replayBag({bag, "", {bad}}, verdict);
+              }).find("--set "),
+              std::string::npos)
+        << bad;
+  }
+  EXPECT_NE(messageOf([&] {
+              replayBag({bag, "", {"vehicles.beta.mass=-3"}}, verdict);
+            }).find("must be greater than 0"),
+            std::string::npos);
+}
+
+TEST(Recording, WhatIsMissingIsNamed) {
+  const TestFolder folder;
+  EXPECT_NE(messageOf([&] { readRecording(folder.file("none.bag")); }).find("none.bag"),
+            std::string::npos);
+  { const rosbag::Bag empty(folder.file("empty.bag"), rosbag::bagmode::Write); }
+  EXPECT_NE(
+      messageOf([&] { readRecording(folder.file("empty.bag")); }).find("there is no scenario"),
+      std::string::npos);
+}
+
+}  // namespace
+}  // namespace hovercraft_ros
