@@ -41,7 +41,7 @@ const std::map<std::string, Rule>& rules() {
   static const std::map<std::string, Rule> table = {
       // boost/multiprecision: exp and sin that are the same on every machine; it needs no library.
       {"math", {{}, {"Eigen/", "boost/multiprecision/"}}},
-      {"geometry", {{"math"}, {"Eigen/", "fmt/", "assimp/"}}},
+      {"geometry", {{"math"}, {"Eigen/", "fmt/", "assimp/", "libqhull_r/"}}},
       {"body", {{"math", "geometry"}, {"Eigen/", "fmt/"}}},
       {"hovercraft", {{"math", "geometry", "body"}, {"Eigen/", "fmt/"}}},
       {"collision", {{"math", "geometry"}, {"Eigen/", "fmt/"}}},

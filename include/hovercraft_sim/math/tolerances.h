@@ -39,6 +39,46 @@ constexpr double kNanosecondSlack = 1e-14;
 /// apart.
 constexpr double kMaxNanoseconds = 1e15;
 
+/// Height (-, of the greatest coordinate) up to which a vertex of a polyhedron counts as in the
+/// plane of a face: rounding of rotated coordinates is some 1e-16, and no error of a distance may
+/// pass 1e-12 of the size.
+constexpr double kPlanarSlack = 1e-13;
+
+/// Dent (-, of the greatest coordinate) up to which a mesh counts as convex: what the error of the
+/// coordinates that were read from a file makes of the height of a vertex over three others.
+constexpr double kMeshDentSlack = 4.0 * kMeshCoordinate;
+
+/// Sine of the angle (-) by which a direction may leave a Voronoi region and still count as on its
+/// boundary: a hundred roundings of a unit vector. Between two features that are as parallel as
+/// this the distance differs by no more than 2e-14 of their length.
+constexpr double kVoronoiSlack = 2e-14;
+
+/// Rounding (-, of the sum of all coordinates) of the difference of two points in one frame: each
+/// coordinate is a sum of four terms, eight roundings of 1.1e-16 bound it.
+constexpr double kPointRounding = 8e-16;
+
+/// Distance (-, of the sum of all coordinates) up to which two bodies touch: what rounding leaves
+/// of the sign.
+constexpr double kTouching = 4e-15;
+
+/// Overlap (-, of the sum of all coordinates) up to which two bodies whose features met count as
+/// touching: the sum over ten such roundings.
+constexpr double kTouchingOverlap = 4e-14;
+
+/// Square of the sine of the angle (-) below which two edges are taken as parallel: their common
+/// perpendicular is lost in rounding.
+constexpr double kParallelEdges = 1e-26;
+
+/// The same in numbers of 106 bits.
+constexpr double kPreciseParallelEdges = 1e-56;
+
+/// Square of the sine of the angle (-) between two edges from which on their cross product gives
+/// the direction of the distance better than the difference of the witness points.
+constexpr double kCrossingEdges = 1e-4;
+
+/// Bound on the number of queries in one search for a time of impact. Each step of the search
+/// closes a fixed share of the gap at least; ten to a hundred are usual.
+constexpr int kMaxImpactQueries = 10000;
 /// Distance (N) from its demand below which a lagging thrust has arrived: without a bound it would
 /// end among the denormal numbers, which processors multiply a hundred times slower.
 constexpr double kSettledThrust = 1e-100;

@@ -1,0 +1,75 @@
+#include "hovercraft_sim/collision/closest_features.h"
+
+#include "hovercraft_sim/collision/feature_walk.h"
+#include "hovercraft_sim/collision/penetration.h"
+
+namespace hovercraft {
+namespace {
+
+ClosestFeatures separated(const FeatureWalk& walk, const Vector3& origin) {
+  ClosestFeatures result;
+  result.status = Proximity::kSeparated;
+  result.distance = walk.distance();
+  result.p_WCa = walk.point(0) + origin;
+  result.p_WCb = walk.point(1) + origin;
+  result.nhat_AB_W = walk.normal();
+  result.feature_a = walk.features()[0];
+  result.feature_b = walk.features()[1];
+  result.steps = walk.steps();
+  result.excess = walk.excess();
+  result.edge_sine = walk.edgeSine();
+  return result;
+}
+
+ClosestFeatures overlapping(const LeastOverlap& least, Proximity status, int steps) {
+  ClosestFeatures result;
+  result.status = status;
+  result.distance = -least.overlap;
+  result.p_WCa = least.p_WCa;
+  result.p_WCb = least.p_WCb;
+  result.nhat_AB_W = least.nhat_AB_W;
+  result.feature_a = least.feature_a;
+  result.feature_b = least.feature_b;
+  result.steps = steps;
+  return result;
+}
+
+}  // namespace
+
+ClosestFeatures closestFeatures(const ConvexPolyhedron& A, const Pose& X_WA,
+                                const ConvexPolyhedron& B, const Pose& X_WB, FeaturePair& last) {
+  FeatureWalk walk(A, X_WA, B, X_WB);
+  if (last.known) {
+    walk.start(last);
+  } else {
+    walk.startAlong(walk.middleToMiddle());
+  }
+  FeatureWalk::End end = walk.run();
+  if (end != FeatureWalk::End::kClosest) {
+    const LeastOverlap least = leastOverlap(A, X_WA, B, X_WB);
+    last.a = least.feature_a;
+    last.b = least.feature_b;
+    last.known = true;
+    last.hints = {0, 0};
+    const double touching = kTouchingOverlap * walk.scale();
+    if (least.overlap > touching) {
+      return overlapping(least, Proximity::kPenetrating, walk.steps());
+    }
+    if (least.overlap > -touching) {
+      return overlapping(least, Proximity::kTouching, walk.steps());
+    }
+    // A plane parts them after all: the walk goes on from the features next to it.
+    walk.start(last);
+    end = walk.run();
+    if (end != FeatureWalk::End::kClosest) {
+      return overlapping(least, Proximity::kStepLimit, walk.steps());
+    }
+  }
+  last.known = true;
+  last.a = walk.features()[0];
+  last.b = walk.features()[1];
+  last.hints = walk.hints();
+  return separated(walk, X_WA.p_AB);
+}
+
+}  // namespace hovercraft

@@ -1,0 +1,223 @@
+#include "hovercraft_sim/collision/feature_walk.h"
+
+namespace hovercraft {
+namespace {
+
+/// The place of the largest value of f over a cycle of `count` places, where f rises to it from
+/// both sides, starting at `hint`: one look to either side when the hint is right, else strides
+/// that halve.
+template <typename Function>
+std::int32_t topOfCycle(std::int32_t count, std::int32_t hint, const Function& f) {
+  const auto wrap = [count](std::int32_t i) { return (i + count) % count; };
+  std::int32_t top = hint < 0 || hint >= count ? 0 : hint;
+  double value = f(top);
+  std::int32_t stride = 1;
+  bool first = true;
+  for (std::int32_t moves = 0; moves < 4 * count && stride >= 1; ++moves) {
+    const double right = f(wrap(top + stride));
+    const double left = f(wrap(top - stride));
+    if (right > value || left > value) {
+      top = wrap(right > left ? top + stride : top - stride);
+      value = std::max(right, left);
+      if (first) stride = std::max(1, count / 4);
+      first = false;
+    } else {
+      if (first) return top;
+      stride /= 2;
+    }
+  }
+  return top;
+}
+
+}  // namespace
+
+FeatureWalk::Slope FeatureWalk::steepest(int side, const Vector3& direction) {
+  const Data::Vertex& v = vertex(side);
+  if (v.apex >= 0) return steepestOfMany(side, direction);
+  const Data::Spoke* const fan = body_[side]->fan.data() + v.fan_begin;
+  const double x = direction.x();
+  const double y = direction.y();
+  const double z = direction.z();
+  double best = -std::numeric_limits<double>::infinity();
+  std::int32_t chosen = 0;
+  for (std::int32_t i = 0; i < v.fan_count; ++i) {
+    const Vector3& d = fan[i].direction;
+    const double slope = (d.x() * x + d.y() * y) + d.z() * z;
+    if (slope > best) {
+      best = slope;
+      chosen = i;
+    }
+  }
+  return {best, v.fan_begin + chosen};
+}
+
+/// The spokes, cut by a plane across the cone, are the corners of a convex polygon, and the slope
+/// over the length to that plane is linear on it: it rises to its largest value from both sides.
+FeatureWalk::Slope FeatureWalk::steepestOfMany(int side, const Vector3& direction) {
+  const Data& body = *body_[side];
+  const Data::Vertex& v = vertex(side);
+  const Vector3& axis = body.inner[at(v.apex)];
+  const Data::Spoke* const fan = body.fan.data() + v.fan_begin;
+  const auto value = [&](std::int32_t i) {
+    return dot(fan[i].direction, direction) / dot(fan[i].direction, axis);
+  };
+  const std::int32_t top = topOfCycle(v.fan_count, hints_[at(side)], value);
+  hints_[at(side)] = top;
+  return {dot(fan[top].direction, direction), v.fan_begin + top};
+}
+
+/// The place in the ring of a side of the face that p lies outside of, or -1.
+std::int32_t FeatureWalk::ringOutside(int side, const Data::Face& f, const Vector3& p) {
+  if (f.middle >= 0) return ringOutsideOfMany(side, f, p);
+  const Data::RingPlane* const ring = body_[side]->ring.data() + f.ring_begin;
+  double least = -margin();
+  std::int32_t chosen = -1;
+  for (std::int32_t i = 0; i < f.ring_count; ++i) {
+    const double inside = dot(ring[i].inward, p) - ring[i].offset;
+    if (inside < least) {
+      least = inside;
+      chosen = f.ring_begin + i;
+    }
+  }
+  return chosen;
+}
+
+/// Seen from the middle of the face, its sides are the corners of the dual polygon, and the share
+/// of the way from the middle to a side that p has gone is linear on it.
+std::int32_t FeatureWalk::ringOutsideOfMany(int side, const Data::Face& f, const Vector3& p) {
+  const Data& body = *body_[side];
+  const Vector3& middle = body.inner[at(f.middle)];
+  const Vector3 from_middle = p - middle;
+  const Data::RingPlane* const ring = body.ring.data() + f.ring_begin;
+  const auto share = [&](std::int32_t i) {
+    return -dot(ring[i].inward, from_middle) / (dot(ring[i].inward, middle) - ring[i].offset);
+  };
+  const std::int32_t top = topOfCycle(f.ring_count, hints_[at(side)], share);
+  hints_[at(side)] = top;
+  return dot(ring[top].inward, p) - ring[top].offset < -margin() ? f.ring_begin + top : -1;
+}
+
+/// Vertex on side x, face on the other.
+FeatureWalk::Outcome FeatureWalk::vertexFace(int x) {
+  const int y = 1 - x;
+  const Data::Face& f = face(y);
+  const Vector3 v = toWorld(x, vertex(x).p);
+  const Vector3 p = toBody(y, v);
+  const std::int32_t outside = ringOutside(y, f, p);
+  if (outside >= 0) {
+    setFeature(y, FeatureKind::kEdge, body_[y]->ring_edge[at(outside)]);
+    return Outcome::kMoved;
+  }
+  const double height = dot(f.normal, p) - f.offset;
+  if (height <= kTouching * scale_) return leaveFace(x, p);
+  const Vector3 u =
+      times(*rotation_[y], Vector3(-f.normal));  // unit, from the vertex to the face, in W
+  const Slope slope = steepest(x, transposeTimes(*rotation_[x], u));
+  if (slope.value > kVoronoiSlack) {
+    moveAlong(x, slope);
+    return Outcome::kMoved;
+  }
+  setAnswer(x, v, v + height * u, u, height);
+  excess_ = slope.value;
+  return Outcome::kClosest;
+}
+
+/// A point p of side x, in the frame of y, lies below the face that it is over: either it is inside
+/// the body of the face, or the face of the other side it lies outside of most is nearer.
+FeatureWalk::Outcome FeatureWalk::leaveFace(int x, const Vector3& p) {
+  const int y = 1 - x;
+  double highest = kTouching * scale_;
+  std::int32_t chosen = -1;
+  const std::vector<Data::Face>& faces = body_[y]->faces;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double height = dot(faces[i].normal, p) - faces[i].offset;
+    if (height > highest) {
+      highest = height;
+      chosen = static_cast<std::int32_t>(i);
+    }
+  }
+  if (chosen < 0) return Outcome::kOverlap;
+  setFeature(y, FeatureKind::kFace, chosen);
+  return Outcome::kMoved;
+}
+
+/// Cuts the edge from `start` to `end` (frame of y) to the prism over the face.
+/// @returns false if nothing is left.
+bool FeatureWalk::cutToPrism(int y, const Vector3& start, const Vector3& end, Cut& cut) const {
+  const Data::Face& f = face(y);
+  for (std::int32_t i = f.ring_begin; i < f.ring_begin + f.ring_count; ++i) {
+    const Data::RingPlane& plane = body_[y]->ring[at(i)];
+    const double a = dot(plane.inward, start) - plane.offset + margin();
+    const double b = dot(plane.inward, end) - plane.offset + margin();
+    if (a < 0.0 && b < 0.0) return false;
+    if (a < 0.0 && a / (a - b) > cut.from) {
+      cut.from = a / (a - b);
+      cut.from_side = i;
+    } else if (b < 0.0 && a / (a - b) < cut.to) {
+      cut.to = a / (a - b);
+      cut.to_side = i;
+    }
+  }
+  return cut.from <= cut.to;
+}
+
+/// Edge on side x, face on the other: the lower end of what is over the face says where to go.
+FeatureWalk::Outcome FeatureWalk::edgeFace(int x) {
+  const int y = 1 - x;
+  const Data::Face& f = face(y);
+  const Data::Edge& e = edge(x);
+  const Vector3 start = toBody(y, toWorld(x, body_[x]->vertices[at(e.vertex[0])].p));
+  const Vector3 end = toBody(y, toWorld(x, body_[x]->vertices[at(e.vertex[1])].p));
+  Cut cut;
+  if (!cutToPrism(y, start, end, cut)) return nearestSide(x, start, end);
+  const double height_start = dot(f.normal, start) - f.offset;
+  const double rise = dot(f.normal, Vector3(end - start));
+  const double height_from = height_start + cut.from * rise;
+  const double height_to = height_start + cut.to * rise;
+  if (std::min(height_from, height_to) <= kTouching * scale_) {
+    if (std::max(height_from, height_to) >= 0.0) return Outcome::kOverlap;
+    return leaveFace(x, start + (0.5 * (cut.from + cut.to)) * (end - start));
+  }
+  const bool lower_from = height_from < height_to;
+  const std::int32_t side = lower_from ? cut.from_side : cut.to_side;
+  if (side >= 0) {
+    setFeature(y, FeatureKind::kEdge, body_[y]->ring_edge[at(side)]);
+  } else {
+    setFeature(x, FeatureKind::kVertex, e.vertex[lower_from ? 0 : 1]);
+  }
+  return Outcome::kMoved;
+}
+
+/// The edge from p to q passes beside the prism over the face: the closest side of the face.
+FeatureWalk::Outcome FeatureWalk::nearestSide(int x, const Vector3& p, const Vector3& q) {
+  const int y = 1 - x;
+  const Data::Face& f = face(y);
+  const Vector3 along = q - p;
+  const double square = dot(along, along);
+  double best = std::numeric_limits<double>::infinity();
+  std::int32_t chosen = f.ring_begin;
+  for (std::int32_t i = f.ring_begin; i < f.ring_begin + f.ring_count; ++i) {
+    const Data::Edge& e = body_[y]->edges[at(body_[y]->ring_edge[at(i)])];
+    const Vector3 w = e.p - p;
+    const Vector3 n = cross(along, e.direction);
+    const double nn = dot(n, n);
+    double s = nn > kParallelEdges * square ? dot(cross(w, e.direction), n) / nn : 0.0;
+    s = std::min(std::max(s, 0.0), 1.0);
+    double t = dot(Vector3(s * along - w), e.direction);
+    if (t < 0.0 || t > e.length) {
+      t = std::min(std::max(t, 0.0), e.length);
+      s = dot(Vector3(w + t * e.direction), along) / square;
+      s = std::min(std::max(s, 0.0), 1.0);
+    }
+    const Vector3 u = w + t * e.direction - s * along;
+    const double distance = dot(u, u);
+    if (distance < best) {
+      best = distance;
+      chosen = i;
+    }
+  }
+  setFeature(y, FeatureKind::kEdge, body_[y]->ring_edge[at(chosen)]);
+  return Outcome::kMoved;
+}
+
+}  // namespace hovercraft

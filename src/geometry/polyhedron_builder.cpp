@@ -1,0 +1,258 @@
+#include "hovercraft_sim/geometry/polyhedron_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/tolerances.h"
+
+namespace hovercraft {
+namespace {
+
+using Edge = PolyhedronData::Edge;
+using Face = PolyhedronData::Face;
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw std::invalid_argument("convex polyhedron: " + reason);
+}
+
+std::string coordinates(const Vector3& p) {
+  return fmt::format("({}, {}, {})", p.x(), p.y(), p.z());
+}
+
+void checkVertices(const std::vector<Vector3>& vertices) {
+  if (vertices.size() < 4) {
+    refuse(fmt::format("has {} vertices, a solid has at least 4", vertices.size()));
+  }
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (!vertices[i].allFinite()) refuse(fmt::format("vertex {} is not finite", i));
+  }
+  std::vector<std::size_t> order(vertices.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto less = [&](std::size_t a, std::size_t b) {
+    const Vector3& u = vertices[a];
+    const Vector3& v = vertices[b];
+    if (u.x() != v.x()) return u.x() < v.x();
+    if (u.y() != v.y()) return u.y() < v.y();
+    return u.z() < v.z();
+  };
+  std::sort(order.begin(), order.end(), less);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (vertices[order[i - 1]] == vertices[order[i]]) {
+      refuse(fmt::format("vertices {} and {} are both at {}", std::min(order[i - 1], order[i]),
+                         std::max(order[i - 1], order[i]), coordinates(vertices[order[i]])));
+    }
+  }
+}
+
+void checkRings(const std::vector<Vector3>& vertices, const Rings& rings) {
+  const auto count = static_cast<std::int32_t>(vertices.size());
+  std::vector<char> used(vertices.size(), 0);
+  for (std::size_t f = 0; f < rings.size(); ++f) {
+    if (rings[f].size() < 3) refuse(fmt::format("face {} has fewer than 3 vertices", f));
+    for (const std::int32_t v : rings[f]) {
+      if (v < 0 || v >= count) {
+        refuse(fmt::format("face {} names vertex {} of {}", f, v, count));
+      }
+      used[at(v)] = 1;
+    }
+  }
+  const auto unused = std::find(used.begin(), used.end(), 0);
+  if (unused != used.end()) {
+    refuse(fmt::format("vertex {} belongs to no face", unused - used.begin()));
+  }
+}
+
+/// One side of one face.
+struct HalfEdge {
+  std::int32_t low;  // its vertices, ordered
+  std::int32_t high;
+  std::int32_t face;
+  std::int32_t ring;  // position in PolyhedronData::ring
+  bool forward;       // runs from low to high
+};
+
+std::vector<HalfEdge> sortedHalfEdges(const Rings& rings) {
+  std::vector<HalfEdge> halves;
+  std::int32_t position = 0;
+  for (std::size_t f = 0; f < rings.size(); ++f) {
+    for (std::size_t i = 0; i < rings[f].size(); ++i) {
+      const std::int32_t from = rings[f][i];
+      const std::int32_t to = rings[f][(i + 1) % rings[f].size()];
+      halves.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f),
+                        position++, from < to});
+    }
+  }
+  std::sort(halves.begin(), halves.end(), [](const HalfEdge& a, const HalfEdge& b) {
+    if (a.low != b.low) return a.low < b.low;
+    if (a.high != b.high) return a.high < b.high;
+    return a.forward && !b.forward;
+  });
+  return halves;
+}
+
+/// Newell's normal: the sum over the sides, good for any number of vertices.
+Face facePlane(const std::vector<Vector3>& vertices, const std::vector<std::int32_t>& ring,
+               std::size_t index) {
+  const Vector3& origin = vertices[at(ring[0])];
+  Vector3 area = Vector3::Zero();
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Vector3 a = vertices[at(ring[i])] - origin;
+    const Vector3 b = vertices[at(ring[i + 1])] - origin;
+    area += cross(a, b);
+  }
+  const double size = norm(area);
+  if (!(size > 0.0)) refuse(fmt::format("face {} has no area", index));
+  Face face{area / size, 0.0, 0, static_cast<std::int32_t>(ring.size()), -1};
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const std::int32_t v : ring) {
+    low = std::min(low, dot(face.normal, vertices[at(v)]));
+    high = std::max(high, dot(face.normal, vertices[at(v)]));
+  }
+  face.offset = 0.5 * (low + high);
+  return face;
+}
+
+void addEdge(PolyhedronData& data, const HalfEdge& a, const HalfEdge& b) {
+  Edge edge{};
+  edge.vertex[0] = a.low;
+  edge.vertex[1] = a.high;
+  edge.p = data.vertices[at(a.low)].p;
+  const Vector3 along = data.vertices[at(a.high)].p - edge.p;
+  edge.length = norm(along);
+  edge.direction = along / edge.length;
+  const HalfEdge* const halves[2] = {&a, &b};
+  for (int side = 0; side < 2; ++side) {
+    const HalfEdge& half = *halves[side];
+    const Vector3 along_ring = side == 0 ? edge.direction : Vector3(-edge.direction);
+    const Vector3 inward = cross(data.faces[at(half.face)].normal, along_ring);
+    edge.face[side] = half.face;
+    edge.ring[side] = half.ring;
+    edge.inward[side] = inward / norm(inward);
+    data.ring[at(half.ring)] = {edge.inward[side], dot(edge.inward[side], edge.p)};
+    data.ring_edge[at(half.ring)] = static_cast<std::int32_t>(data.edges.size());
+  }
+  data.edges.push_back(edge);
+}
+
+void addEdges(PolyhedronData& data, const Rings& rings) {
+  const std::vector<HalfEdge> halves = sortedHalfEdges(rings);
+  data.ring.resize(halves.size());
+  data.ring_edge.resize(halves.size());
+  data.edges.reserve(halves.size() / 2);
+  for (std::size_t i = 0; i < halves.size(); i += 2) {
+    const HalfEdge& a = halves[i];
+    const bool paired = i + 1 < halves.size() && halves[i + 1].low == a.low &&
+                        halves[i + 1].high == a.high && a.forward && !halves[i + 1].forward;
+    const bool thrice = paired && i + 2 < halves.size() && halves[i + 2].low == a.low &&
+                        halves[i + 2].high == a.high;
+    if (!paired || thrice) {
+      refuse(
+          fmt::format("the edge between vertices {} and {} does not belong to exactly two faces "
+                      "that run through it in opposite directions",
+                      a.low, a.high));
+    }
+    addEdge(data, a, halves[i + 1]);
+  }
+}
+
+/// The spokes of each vertex, counter-clockwise: from a half-edge that leaves the vertex to the one
+/// before it in the ring of its left face, which ends here; its twin leaves.
+void addFans(PolyhedronData& data) {
+  const auto leaving = [&](std::int32_t ring_position, std::int32_t vertex) {
+    const std::int32_t e = data.ring_edge[at(ring_position)];
+    return 2 * e + (data.edges[at(e)].vertex[0] == vertex ? 0 : 1);
+  };
+  std::vector<std::int32_t> first(data.vertices.size(), -1);
+  for (std::size_t e = 0; e < data.edges.size(); ++e) {
+    for (int side = 0; side < 2; ++side) {
+      std::int32_t& start = first[at(data.edges[e].vertex[side])];
+      if (start < 0) start = static_cast<std::int32_t>(2 * e) + side;
+    }
+  }
+  data.fan.reserve(2 * data.edges.size());
+  data.fan_edge.reserve(2 * data.edges.size());
+  for (std::size_t v = 0; v < data.vertices.size(); ++v) {
+    data.vertices[v].fan_begin = static_cast<std::int32_t>(data.fan.size());
+    std::int32_t half = first[v];
+    do {
+      const Edge& edge = data.edges[at(half / 2)];
+      const int side = half % 2;
+      const Vector3 direction = side == 0 ? edge.direction : Vector3(-edge.direction);
+      data.fan.push_back({direction, edge.length});
+      data.fan_edge.push_back(half);
+      const Face& face = data.faces[at(edge.face[side])];
+      const std::int32_t position = edge.ring[side];
+      const std::int32_t previous =
+          position > face.ring_begin ? position - 1 : position + face.ring_count - 1;
+      half = leaving(previous, static_cast<std::int32_t>(v));
+    } while (half != first[v]);
+    data.vertices[v].fan_count =
+        static_cast<std::int32_t>(data.fan.size()) - data.vertices[v].fan_begin;
+  }
+  if (data.fan.size() != 2 * data.edges.size()) {
+    refuse("the surface touches itself in a vertex");
+  }
+}
+
+/// A point inside each face of many edges, and a direction inside the cone of each vertex of many:
+/// against the normals of its faces.
+void addInner(PolyhedronData& data) {
+  for (Face& face : data.faces) {
+    if (face.ring_count <= PolyhedronData::kLongLoop) continue;
+    Vector3 sum = Vector3::Zero();
+    for (std::int32_t i = face.ring_begin; i < face.ring_begin + face.ring_count; ++i) {
+      const Edge& edge = data.edges[at(data.ring_edge[at(i)])];
+      sum += data.vertices[at(edge.vertex[0])].p + data.vertices[at(edge.vertex[1])].p;
+    }
+    face.middle = static_cast<std::int32_t>(data.inner.size());
+    data.inner.push_back(sum / (2.0 * face.ring_count));
+  }
+  for (PolyhedronData::Vertex& vertex : data.vertices) {
+    if (vertex.fan_count <= PolyhedronData::kLongLoop) continue;
+    Vector3 sum = Vector3::Zero();
+    for (std::int32_t i = vertex.fan_begin; i < vertex.fan_begin + vertex.fan_count; ++i) {
+      const std::int32_t half = data.fan_edge[at(i)];
+      sum -= data.faces[at(data.edges[at(half / 2)].face[half % 2])].normal;
+    }
+    vertex.apex = static_cast<std::int32_t>(data.inner.size());
+    data.inner.push_back(sum / norm(sum));
+  }
+}
+
+}  // namespace
+
+PolyhedronData buildPolyhedron(const std::vector<Vector3>& vertices, const Rings& rings) {
+  checkVertices(vertices);
+  checkRings(vertices, rings);
+  PolyhedronData data;
+  data.vertices.reserve(vertices.size());
+  for (const Vector3& p : vertices) {
+    data.vertices.push_back({p, 0, 0, -1});
+    data.radius = std::max(data.radius, norm(p));
+    data.center += p;
+  }
+  data.center /= static_cast<double>(vertices.size());
+  std::int32_t position = 0;
+  data.faces.reserve(rings.size());
+  for (std::size_t f = 0; f < rings.size(); ++f) {
+    data.faces.push_back(facePlane(vertices, rings[f], f));
+    data.faces.back().ring_begin = position;
+    position += data.faces.back().ring_count;
+  }
+  addEdges(data, rings);
+  addFans(data);
+  addInner(data);
+  return data;
+}
+
+}  // namespace hovercraft

@@ -1,0 +1,154 @@
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/collision/time_of_impact.h"
+#include "hovercraft_sim/geometry/polyhedron_shapes.h"
+
+#include "random_bodies.h"
+
+namespace hovercraft {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Motion moving(const Vector3& p, const Vector3& v, const Vector3& w = Vector3(0, 0, 0)) {
+  Motion motion;
+  motion.p_WB = p;
+  motion.v_WB = v;
+  motion.w_WB = w;
+  return motion;
+}
+
+const ImpactMethod kMethods[] = {ImpactMethod::kAdvance, ImpactMethod::kBisection};
+
+// A point that falls from 1 m meets the floor at sqrt(2 h / g).
+TEST(VertexPlaneImpact, OfAFallingPointIsTheClosedForm) {
+  for (const ImpactMethod method : kMethods) {
+    Motion motion = moving(Vector3(0, 0, 1), Vector3(0, 0, 0));
+    motion.a_WB = Vector3(0, 0, -9.81);
+    const VertexImpact impact =
+        vertexPlaneImpact(Vector3(0, 0, 0), motion, {Vector3(0, 0, 1), 0.0}, {1.0, 1e-10, method});
+    ASSERT_EQ(impact.status, ImpactStatus::kImpact);
+    EXPECT_NEAR(impact.time, std::sqrt(2.0 / 9.81), 1e-10);
+    EXPECT_LE(impact.time, std::sqrt(2.0 / 9.81));
+  }
+}
+
+// The tip of a turning arm dips below the plane and comes up again within the step: both ends of
+// the step are clear. It enters at cos(10 t) = 0.95.
+TEST(VertexPlaneImpact, FindsAVertexThatEntersAndLeavesWithinTheStep) {
+  for (const ImpactMethod method : kMethods) {
+    Motion motion = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(10, 0, 0));
+    motion.q_WB = quaternionFromAxisAngle(Vector3::UnitX(), -1.0);
+    const VertexImpact impact = vertexPlaneImpact(Vector3(0, 0, -1), motion,
+                                                  {Vector3(0, 0, 1), -0.95}, {0.2, 1e-9, method});
+    const double expected = (1.0 - std::acos(0.95)) / 10.0;
+    ASSERT_EQ(impact.status, ImpactStatus::kImpact);
+    EXPECT_NEAR(impact.time, expected, 1e-9);
+    EXPECT_LE(impact.time, expected);
+    const VertexImpact miss = vertexPlaneImpact(Vector3(0, 0, -1), motion,
+                                                {Vector3(0, 0, 1), -1.001}, {0.2, 1e-9, method});
+    EXPECT_EQ(miss.status, ImpactStatus::kNone);
+  }
+}
+
+// 1 cm at 100 m/s against 1 mm in a step of 10 ms: it goes through and 0.5 m beyond between the
+// ends of the step. The gap of 0.4945 m closes at 100 m/s.
+TEST(TimeOfImpact, ABulletDoesNotTunnelThroughAPlate) {
+  const ConvexPolyhedron bullet = boxPolyhedron(Vector3(0.01, 0.01, 0.01));
+  const ConvexPolyhedron plate = boxPolyhedron(Vector3(0.001, 1, 1));
+  for (const ImpactMethod method : kMethods) {
+    const TimeOfImpact impact =
+        timeOfImpact(bullet, moving(Vector3(-0.5, 0, 0), Vector3(100, 0, 0)), plate, Motion(),
+                     {0.01, 1e-8, method});
+    ASSERT_EQ(impact.status, ImpactStatus::kImpact);
+    EXPECT_NEAR(impact.time, 0.004945, 1e-10);
+    EXPECT_LE(impact.time, 0.004945);
+    EXPECT_GT(impact.closest.distance, 0.0);
+    EXPECT_LE(impact.closest.distance, 1e-8);
+  }
+}
+
+// A rod of length 2 turns by 170 degrees in the step; a cube stands on a corner at angle 90 degrees
+// and radius 0.98: at both ends of the step the rod is far from it.
+TEST(TimeOfImpact, ASpinningRodDoesNotPassACorner) {
+  const ConvexPolyhedron rod = boxPolyhedron(Vector3(2, 0.01, 0.01));
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3(0.1, 0.1, 0.1));
+  Motion corner = moving(Vector3(0, 0.98 + 0.05 * std::sqrt(2.0), 0), Vector3(0, 0, 0));
+  corner.q_WB = quaternionFromAxisAngle(Vector3::UnitZ(), kPi / 4);
+  const Motion spin = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(0, 0, kPi * 170 / 180));
+  // The rod's leading corner (1, 0.005), at radius r and atan(0.005) ahead of the rod, meets the
+  // side y - x = 0.98 of the cube: r sin b - r cos b = 0.98 at its angle b.
+  const double r = std::sqrt(1.0 + 0.005 * 0.005);
+  const double b = kPi / 4 + std::asin(0.98 / (r * std::sqrt(2.0)));
+  const double expected = (b - std::atan(0.005)) / (kPi * 170 / 180);
+  for (const ImpactMethod method : kMethods) {
+    const TimeOfImpact impact = timeOfImpact(rod, spin, cube, corner, {1.0, 1e-8, method});
+    ASSERT_EQ(impact.status, ImpactStatus::kImpact);
+    EXPECT_NEAR(impact.time, expected, 1e-8);
+    EXPECT_LE(impact.time, expected);
+  }
+}
+
+TEST(TimeOfImpact, BodiesThatPassEachOtherDoNotMeet) {
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3(1, 1, 1));
+  for (const ImpactMethod method : kMethods) {
+    const TimeOfImpact impact =
+        timeOfImpact(cube, moving(Vector3(-10, 0, 0), Vector3(20, 0, 0)), cube,
+                     moving(Vector3(0, 1.001, 0), Vector3(0, 0, 0)), {1.0, 1e-6, method});
+    EXPECT_EQ(impact.status, ImpactStatus::kNone);
+    EXPECT_EQ(impact.time, 1.0);
+  }
+}
+
+TEST(TimeOfImpact, BodiesThatOverlapAtTheStartAreReported) {
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3(1, 1, 1));
+  const TimeOfImpact impact =
+      timeOfImpact(cube, Motion(), cube, moving(Vector3(0.9, 0, 0), Vector3(1, 0, 0)), {1.0, 1e-6});
+  EXPECT_EQ(impact.status, ImpactStatus::kOverlapping);
+  EXPECT_THROW(timeOfImpact(cube, Motion(), cube, Motion(), {0.0, 1e-6}), std::logic_error);
+}
+
+// Random bodies of 32 vertices on a collision course: both methods agree, the bodies are apart by
+// no more than the tolerance at the time returned, and at no earlier of 200 times they overlap.
+TEST(TimeOfImpact, IsNeverLateAndBothMethodsAgree) {
+  RandomBodies random(51);
+  std::vector<int> queries;
+  for (int i = 0; i < 300; ++i) {
+    const ConvexPolyhedron A = random.ellipsoidHull(32, {1.0, 0.7, 0.4});
+    const ConvexPolyhedron B = random.ellipsoidHull(32, {1.0, 0.7, 0.4});
+    Motion motion_A =
+        moving(Vector3(0, 0, 0), Vector3(0, 0, 0), random.uniform(0, 1.5) * random.unitVector());
+    motion_A.q_WB = random.orientation();
+    const Vector3 start = 3.0 * random.unitVector();
+    Motion motion_B = moving(start, Vector3(random.unitVector() * 0.3 - start),
+                             random.uniform(0, 1.5) * random.unitVector());
+    motion_B.q_WB = random.orientation();
+    motion_B.a_WB = 0.5 * random.unitVector();
+    const TimeOfImpact fast = timeOfImpact(A, motion_A, B, motion_B, {1.0, 1e-6});
+    const TimeOfImpact slow =
+        timeOfImpact(A, motion_A, B, motion_B, {1.0, 1e-6, ImpactMethod::kBisection});
+    ASSERT_EQ(fast.status, slow.status) << "seed 51, sample " << i;
+    if (fast.status == ImpactStatus::kNone) continue;
+    ASSERT_EQ(fast.status, ImpactStatus::kImpact);
+    queries.push_back(fast.queries);
+    EXPECT_GT(fast.closest.distance, 0.0);
+    EXPECT_LE(fast.closest.distance, 1e-6);
+    EXPECT_LE(slow.closest.distance, 1e-6);
+    EXPECT_NEAR(fast.time, slow.time, 1e-3) << "seed 51, sample " << i;
+    FeaturePair last;
+    for (int k = 0; k < 200; ++k) {
+      const double t = fast.time * k / 200;
+      ASSERT_EQ(closestFeatures(A, motion_A.at(t), B, motion_B.at(t), last).status,
+                Proximity::kSeparated);
+    }
+  }
+  ASSERT_GT(queries.size(), 200U);
+  std::nth_element(queries.begin(), queries.begin() + static_cast<long>(queries.size() / 2),
+                   queries.end());
+  EXPECT_LE(queries[queries.size() / 2], 12);
+}
+
+}  // namespace
+}  // namespace hovercraft
