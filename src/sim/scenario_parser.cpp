@@ -61,6 +61,11 @@ std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
 }
 
 struct ParsedPart {
+  // A constructor, not an aggregate: GCC 12 destroys the first member twice if the second one's
+  // initializer throws.
+  ParsedPart(const PartScenario& described, const MassProperties& at_unit_density)
+      : part(described), unit(at_unit_density) {}
+
   PartScenario part;
   MassProperties unit;  // of density 1 kg/m³, in the part's own frame
 };

@@ -41,6 +41,7 @@ std::vector<TrajectoryPair> pairByVehicle(const std::vector<Trajectory>& a,
   if (!vehicle.empty()) return {{&required(a, vehicle, "A"), &required(b, vehicle, "B")}};
   if (a.size() == 1 && b.size() == 1) return {{&a.front(), &b.front()}};
   std::vector<TrajectoryPair> pairs;
+  pairs.reserve(a.size());
   for (const Trajectory& trajectory : a) {
     pairs.push_back({&trajectory, &required(b, trajectory.vehicle, "B")});
   }
