@@ -2,8 +2,10 @@
 //   collision_accuracy [QUERIES] [SEED]
 // Hulls of 4 to 200 vertices, sizes 0.1 to 10, half of the poses 1e-9 to 1 from touching. Prints
 // the worst error of the distance and of the depth, of the size, and how often each status came.
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
+#include <exception>
 #include <fmt/format.h>
 #include <string>
 
@@ -12,53 +14,82 @@
 #include "test/collision/brute_force.h"
 #include "test/collision/random_bodies.h"
 
-int main(int argc, char** argv) {
-  using namespace hovercraft;
-  const long queries = argc > 1 ? std::stol(argv[1]) : 1000000;
-  const unsigned seed = argc > 2 ? static_cast<unsigned>(std::stoul(argv[2])) : 1;
-  RandomBodies random(seed);
-  const auto body = [&random](double size) {
-    const double n = std::exp(random.uniform(std::log(4.0), std::log(201.0)));
-    const Vector3 axes(1.0, random.uniform(0.05, 1.0), random.uniform(0.05, 1.0));
-    return random.ellipsoidHull(static_cast<int>(n), Vector3(size * axes));
-  };
+namespace {
+
+using namespace hovercraft;
+
+/// What came of the queries so far; errors relative to the size of the pair.
+struct Tally {
+  std::array<long, 4> counts{};  // by status
   double worst_distance = 0.0;
   double worst_depth = 0.0;
   double worst_excess = -1.0;
-  long counts[4] = {0, 0, 0, 0};
-  long done = 0;
-  while (done < queries) {
+
+  void add(const ClosestFeatures& found, const brute_force::Body& a, const brute_force::Body& b,
+           double size) {
+    ++counts[static_cast<std::size_t>(found.status)];
+    if (found.status == Proximity::kSeparated) {
+      const auto expected = static_cast<double>(brute_force::distance(a, b));
+      worst_distance = std::max(worst_distance, std::abs(found.distance - expected) / size);
+      worst_excess = std::max(worst_excess, found.excess);
+    } else {
+      const auto expected = static_cast<double>(brute_force::leastOverlap(a, b));
+      worst_depth = std::max(worst_depth, std::abs(found.distance + expected) / size);
+    }
+  }
+};
+
+ConvexPolyhedron randomHull(RandomBodies& random, double size) {
+  const double n = std::exp(random.uniform(std::log(4.0), std::log(201.0)));
+  const Vector3 axes(1.0, random.uniform(0.05, 1.0), random.uniform(0.05, 1.0));
+  return random.ellipsoidHull(static_cast<int>(n), Vector3(size * axes));
+}
+
+/// One query: at a random pose, or moved along the normal until the gap is 1e-9 to 1.
+void queryOnce(RandomBodies& random, const ConvexPolyhedron& A, const ConvexPolyhedron& B,
+               double nearest, bool is_close, Tally& tally) {
+  const Pose X_WA = random.pose(1.0);
+  Pose X_WB = random.pose(nearest);
+  FeaturePair last;
+  ClosestFeatures found = closestFeatures(A, X_WA, B, X_WB, last);
+  if (is_close) {
+    const double gap = std::pow(10.0, random.uniform(-9.0, 0.0));
+    X_WB.p_AB -= (found.distance - gap) * found.nhat_AB_W;
+    found = closestFeatures(A, X_WA, B, X_WB, last);
+  }
+  const double size = A.data().radius + B.data().radius + norm(X_WB.p_AB - X_WA.p_AB);
+  tally.add(found, brute_force::place(A, X_WA, X_WA.p_AB), brute_force::place(B, X_WB, X_WA.p_AB),
+            size);
+}
+
+int run(long queries, unsigned seed) {
+  RandomBodies random(seed);
+  Tally tally;
+  for (long done = 0; done < queries;) {
     const double size_B = std::pow(10.0, random.uniform(-1.0, 1.0));
-    const ConvexPolyhedron A = body(1.0);
-    const ConvexPolyhedron B = body(size_B);
+    const ConvexPolyhedron A = randomHull(random, 1.0);
+    const ConvexPolyhedron B = randomHull(random, size_B);
     for (int i = 0; i < 100 && done < queries; ++i, ++done) {
-      const Pose X_WA = random.pose(1.0);
-      Pose X_WB = random.pose(random.uniform(i % 50 == 0 ? 0.0 : 1.0, 3.0) * (1.0 + size_B));
-      FeaturePair last;
-      ClosestFeatures c = closestFeatures(A, X_WA, B, X_WB, last);
-      if (i % 2 == 1) {
-        const double gap = std::pow(10.0, random.uniform(-9.0, 0.0));
-        X_WB.p_AB -= (c.distance - gap) * c.nhat_AB_W;
-        c = closestFeatures(A, X_WA, B, X_WB, last);
-      }
-      ++counts[static_cast<int>(c.status)];
-      const brute_force::Body a = brute_force::place(A, X_WA, X_WA.p_AB);
-      const brute_force::Body b = brute_force::place(B, X_WB, X_WA.p_AB);
-      const double size = A.data().radius + B.data().radius + norm(X_WB.p_AB - X_WA.p_AB);
-      if (c.status == Proximity::kSeparated) {
-        const auto expected = static_cast<double>(brute_force::distance(a, b));
-        worst_distance = std::max(worst_distance, std::abs(c.distance - expected) / size);
-        worst_excess = std::max(worst_excess, c.excess);
-      } else {
-        const auto expected = static_cast<double>(brute_force::leastOverlap(a, b));
-        worst_depth = std::max(worst_depth, std::abs(c.distance + expected) / size);
-      }
+      const double distance = random.uniform(i % 50 == 0 ? 0.0 : 1.0, 3.0) * (1.0 + size_B);
+      queryOnce(random, A, B, distance, i % 2 == 1, tally);
     }
   }
   fmt::print("seed {}: {} queries: {} separated, {} touching, {} penetrating, {} without answer\n",
-             seed, done, counts[0], counts[1], counts[2], counts[3]);
+             seed, queries, tally.counts[0], tally.counts[1], tally.counts[2], tally.counts[3]);
   fmt::print(
       "worst error of a distance {:.2e}, of a depth {:.2e} of the size; worst excess {:.2e}\n",
-      worst_distance, worst_depth, worst_excess);
-  return counts[3] == 0 && worst_distance < 1e-12 && worst_depth < 1e-12 ? 0 : 1;
+      tally.worst_distance, tally.worst_depth, tally.worst_excess);
+  return tally.counts[3] == 0 && tally.worst_distance < 1e-12 && tally.worst_depth < 1e-12 ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc > 1 ? std::stol(argv[1]) : 1000000,
+               argc > 2 ? static_cast<unsigned>(std::stoul(argv[2])) : 1);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "collision_accuracy: {}\n", error.what());
+    return 1;
+  }
 }
