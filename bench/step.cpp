@@ -22,7 +22,7 @@ struct Case {
 
 void stepSimulation(benchmark::State& state, Case which) {
   Simulation simulation(drivenCraft(which.integrator, which.orientation, which.model));
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const Tick tick = simulation.tick();
     if (tick % kCommandPeriod == 0) {
       simulation.push({tick, 0, kAllEngines, demandedThrusts()});
@@ -48,7 +48,7 @@ void stepAlone(benchmark::State& state, Case which) {
   const DrivenHovercraft system = {model, course};
   auto body = std::get<RigidBodyState<Orientation>>(simulation.state(0).body);
   const double h = scenario.stepSize();
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     body = integrationStep(which.integrator, body, system, h);
     benchmark::ClobberMemory();
   }
@@ -91,5 +91,6 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   hovercraft::bench::registerAll();
   benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
   return 0;
 }

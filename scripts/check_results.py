@@ -1,7 +1,7 @@
 """Checks that every test of the sources ran and passed.
 
-The sources decide what should have run: each TEST of test/**/*.cpp must be in a result file, completed and passed;
-each test/rostest/*.test must have been launched, each <test> in it must have left a result; and so must the check of
+The sources decide what should have run: each TEST of test/**/*.cpp and each test method of test/rostest/*.py must be
+in a result file, completed and passed; each test/rostest/*.test must have been launched, each <test> in it must have left a result; and so must the check of
 the launch files.
 
 usage: check_results.py BUILD_FOLDER [--kind gtest|rostest|all]   (exit status 1 if one is missing or failed; run in
@@ -9,6 +9,7 @@ the project's root)
 """
 
 import argparse
+import ast
 import pathlib
 import re
 import sys
@@ -19,14 +20,19 @@ ROSTESTS = pathlib.Path('test/rostest')
 
 
 def plain_name(suite, name):
-    """The name in the source of a test that ran: 'Some/Suite/0', 'test/3' is test of Suite."""
+    """The name in the source of a test that ran: 'Some/Suite/0', 'test/3' is test of Suite; so is 'module.Suite'."""
     suite_parts = [part for part in suite.split('/') if not part.isdigit()]
-    return f"{suite_parts[-1]}.{name.split('/')[0]}"
+    return f"{suite_parts[-1].split('.')[-1]}.{name.split('/')[0]}"
 
 
-def declared_tests(sources):
-    """Maps 'Suite.Name' to the source that declares it."""
-    return {f'{suite}.{name}': source for source in sources for suite, name in DECLARATION.findall(source.read_text())}
+def tests_of(source):
+    """The 'Suite.Name' of every test that a C++ or Python source declares."""
+    text = source.read_text()
+    if source.suffix == '.cpp':
+        return [f'{suite}.{name}' for suite, name in DECLARATION.findall(text)]
+    classes = [node for node in ast.parse(text).body if isinstance(node, ast.ClassDef)]
+    return [f'{node.name}.{method.name}' for node in classes for method in node.body
+            if isinstance(method, ast.FunctionDef) and method.name.startswith('test_')]
 
 
 def read_results(folder):
@@ -34,7 +40,12 @@ def read_results(folder):
     passed, failures = set(), []
     files = sorted(folder.rglob('*.xml'))
     for file in files:
-        for case in xml.parse(file).getroot().iter('testcase'):
+        try:
+            cases = list(xml.parse(file).getroot().iter('testcase'))
+        except xml.ParseError as error:
+            failures.append(f'{file.name} is not complete: {error}')
+            continue
+        for case in cases:
             name = plain_name(case.get('classname', ''), case.get('name', ''))
             bad = case.find('failure') is not None or case.find('error') is not None
             idle = (case.find('skipped') is not None or case.get('status') == 'notrun' or
@@ -61,9 +72,10 @@ def main():
     parser.add_argument('--kind', choices=('gtest', 'rostest', 'all'), default='all')
     arguments = parser.parse_args()
 
-    sources = [source for source in sorted(pathlib.Path('test').rglob('*.cpp'))
+    sources = sorted(pathlib.Path('test').rglob('*.cpp')) + sorted(ROSTESTS.glob('*.py'))
+    sources = [source for source in sources
                if arguments.kind in ('all', 'rostest' if ROSTESTS in source.parents else 'gtest')]
-    declared = declared_tests(sources)
+    declared = {name: source for source in sources for name in tests_of(source)}
     passed, complaints, result_names = read_results(arguments.build / 'test_results')
     mentioned = ' '.join(complaints)
     complaints += [f'{source}: {name} did not run' for name, source in sorted(declared.items())
@@ -74,7 +86,7 @@ def main():
         complaints.append('no test ran')
     if complaints:
         sys.exit('\n'.join(complaints))
-    print(f'Every one of the {len(declared)} tests that the C++ sources declare ran and passed.')
+    print(f'Every one of the {len(declared)} tests that the sources declare ran and passed.')
 
 
 if __name__ == '__main__':

@@ -15,7 +15,7 @@ export PATH="/usr/bin:/bin:/usr/sbin:/sbin:$PATH"
 export ROS_HOSTNAME=localhost
 unset ROS_DISTRO ROS_IP ROS_MASTER_URI ROS_NAMESPACE ROS_PACKAGE_PATH CMAKE_PREFIX_PATH PYTHONPATH PYTHONHOME
 
-readonly RELEASE_BUILD=build/release
+readonly RELEASE_BUILD=build_release
 JOBS=$(nproc)
 readonly JOBS
 

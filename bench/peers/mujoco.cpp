@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 #include <stdexcept>
@@ -32,7 +31,8 @@ mjModel* loadModel(const std::string& xml) {
   mj_defaultVFS(files.get());
   const char* name = "body.xml";
   mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(xml.size()));
-  std::memcpy(files->filedata[mj_findFileVFS(files.get(), name)], xml.data(), xml.size());
+  std::copy(xml.begin(), xml.end(),
+            static_cast<char*>(files->filedata[mj_findFileVFS(files.get(), name)]));
   std::string error(kModelErrorSize, '\0');
   mjModel* model = mj_loadXML(name, files.get(), &error[0], kModelErrorSize);
   mj_deleteVFS(files.get());
@@ -56,7 +56,7 @@ class Mujoco : public Peer {
   Mujoco& operator=(const Mujoco&) = delete;
 
   void step(const Vector3& f_B) override {
-    mju_rotVecQuat(data_->xfrc_applied + 6 * kBody, f_B.data(), data_->qpos + 3);
+    mju_rotVecQuat(data_->xfrc_applied + kForce, f_B.data(), data_->qpos + 3);
     mj_step(model_, data_);
   }
   Quaternion attitude() const override {
@@ -65,7 +65,7 @@ class Mujoco : public Peer {
   }
 
  private:
-  static constexpr int kBody = 1;  // body 0 is the world
+  static constexpr std::ptrdiff_t kForce = 6;  // body 0 is the world, 6 numbers to each
 
   mjModel* model_;
   mjData* data_;

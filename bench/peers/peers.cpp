@@ -88,6 +88,7 @@ std::vector<double> stepTimes(const std::vector<std::unique_ptr<Peer>>& peers) {
     }
   }
   std::vector<double> medians;
+  medians.reserve(times.size());
   for (const std::vector<double>& rounds : times) medians.push_back(median(rounds));
   return medians;
 }

@@ -93,8 +93,9 @@ constexpr int kDigits = 17;                                   // tell every doub
 constexpr std::uint64_t kLeast17Digits = 10000000000000000U;  // 10^16
 constexpr std::uint64_t kLeast18Digits = 10 * kLeast17Digits;
 constexpr int kMantissaBits = 53;
-constexpr int kMostPowerOf5 = 27;     // 5^27 < 2^63: times a mantissa it fits 128 bits
-constexpr double kLeastFast = 1e-10;  // between these, numbers are scaled by 10^2 to 10^27
+// Between these, numbers are scaled by 10^2 to 10^27; 5^27 < 2^63: times a mantissa it fits 128
+// bits.
+constexpr double kLeastFast = 1e-10;
 constexpr double kMostFast = 1e14;
 constexpr int kLeastFixedExponent = -4;  // %g writes smaller numbers with an exponent
 

@@ -47,13 +47,14 @@ TEST(EngineGeometry, MatricesAreTheSumsOverEngines) {
   Vector3 force_sum = Vector3::Zero();
   Vector3 torque_sum = Vector3::Zero();
   for (int i = 0; i < kEngineCount; ++i) {
-    const EngineParameters& engine = engines[static_cast<std::size_t>(i)];
+    const auto index = static_cast<std::size_t>(i);
+    const EngineParameters& engine = engines[index];
     const Vector3 force = thrusts[i] * engine.direction;
     const Vector3 torque = cross(engine.p_HE - p_HB, force);
     Vector3 alone = Vector3::Zero();
     alone[i] = thrusts[i];
-    EXPECT_LT(norm(geometry.wrenchInBody(alone).force - force), kRounding) << kEngineNames[i];
-    EXPECT_LT(norm(geometry.wrenchInBody(alone).torque - torque), kRounding) << kEngineNames[i];
+    EXPECT_LT(norm(geometry.wrenchInBody(alone).force - force), kRounding) << kEngineNames[index];
+    EXPECT_LT(norm(geometry.wrenchInBody(alone).torque - torque), kRounding) << kEngineNames[index];
     force_sum += force;
     torque_sum += torque;
   }

@@ -48,27 +48,27 @@ class MessageContract : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     Pilot pilot("tumbler");
-    flight_ = std::make_unique<RecordedFlight>(outputTopics({"tumbler"}));
+    flight = std::make_unique<RecordedFlight>(outputTopics({"tumbler"}));
     pilot.flyFor(500, {3.0, 0.5, 1.0});
-    recording_ = std::make_unique<const Recording>(flight_->finish());
+    flown = std::make_unique<const Recording>(flight->finish());
   }
   static void TearDownTestSuite() {
-    recording_.reset();
-    flight_.reset();
+    flown.reset();
+    flight.reset();
   }
 
-  void SetUp() override { ASSERT_NE(recording_, nullptr) << "the flight failed"; }
+  void SetUp() override { ASSERT_NE(flown, nullptr) << "the flight failed"; }
 
-  static const Recording& recording() { return *recording_; }
+  static const Recording& recording() { return *flown; }
 
   template <class Message>
   static std::vector<Message> messages(const std::string& name) {
-    return recording_->messages<Message>("/tumbler/" + name);
+    return flown->messages<Message>("/tumbler/" + name);
   }
 
   static std::vector<geometry_msgs::TransformStamped> transforms() {
     std::vector<geometry_msgs::TransformStamped> result;
-    for (const auto& message : recording_->messages<tf2_msgs::TFMessage>("/tf")) {
+    for (const auto& message : flown->messages<tf2_msgs::TFMessage>("/tf")) {
       result.insert(result.end(), message.transforms.begin(), message.transforms.end());
     }
     return result;
@@ -120,11 +120,11 @@ class MessageContract : public ::testing::Test {
   }
 
  private:
-  static std::unique_ptr<RecordedFlight> flight_;
-  static std::unique_ptr<const Recording> recording_;
+  static std::unique_ptr<RecordedFlight> flight;
+  static std::unique_ptr<const Recording> flown;
 };
-std::unique_ptr<RecordedFlight> MessageContract::flight_;
-std::unique_ptr<const Recording> MessageContract::recording_;
+std::unique_ptr<RecordedFlight> MessageContract::flight;
+std::unique_ptr<const Recording> MessageContract::flown;
 
 void expectNear(const Vector3& a, const Vector3& b) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], kTolerance) << "component " << i;

@@ -11,6 +11,10 @@
 /// `Stage` says which time within the step the forces are wanted for, so that a force that depends
 /// on time keeps the order of the method. Every method ends by bringing the orientation back to a
 /// rotation.
+///
+/// gnu::flatten has the compiler inline the stages, derivative and all: the slopes stay in
+/// registers, and a step takes a quarter less time (bench/README.md). A compiler that does not know
+/// it ignores it.
 
 namespace hovercraft {
 
@@ -59,8 +63,8 @@ RigidBodyState<Orientation> semiImplicitEulerStep(const RigidBodyState<Orientati
 /// Heun, order 2: Y + h/2 (k1 + k2), k2 at the end of an Euler step (the source's formula with its
 /// first slope).
 template <class Orientation, class System>
-RigidBodyState<Orientation> heunStep(const RigidBodyState<Orientation>& y, const System& f,
-                                     double h) {
+[[gnu::flatten]] RigidBodyState<Orientation> heunStep(const RigidBodyState<Orientation>& y,
+                                                      const System& f, double h) {
   const auto k1 = f.derivative(y, Stage::kStart);
   const auto k2 = f.derivative(moved(y, h, k1), Stage::kEnd);
   return moved(y, 0.5 * h, k1 + k2);
@@ -68,8 +72,8 @@ RigidBodyState<Orientation> heunStep(const RigidBodyState<Orientation>& y, const
 
 /// Classical Runge-Kutta, order 4: Y + h/6 (k1 + 2 k2 + 2 k3 + k4).
 template <class Orientation, class System>
-RigidBodyState<Orientation> rungeKutta4Step(const RigidBodyState<Orientation>& y, const System& f,
-                                            double h) {
+[[gnu::flatten]] RigidBodyState<Orientation> rungeKutta4Step(const RigidBodyState<Orientation>& y,
+                                                             const System& f, double h) {
   const auto k1 = f.derivative(y, Stage::kStart);
   const auto k2 = f.derivative(moved(y, 0.5 * h, k1), Stage::kMiddle);
   const auto k3 = f.derivative(moved(y, 0.5 * h, k2), Stage::kMiddle);
