@@ -85,7 +85,7 @@ class VehicleStream {
   }
 
  private:
-  Command commandOf(const rosbag::MessageInstance& message) const {
+  Command commandOf(const rosbag::MessageInstance& message) {
     if (message.getTopic() == topics_.applied) return appliedOf(message);
     const std::int64_t time_ns = (message.getTime() - begin_).toNSec();
     const Tick tick = hovercraft::firstTickAt(time_ns, step_ns_);
@@ -104,7 +104,7 @@ class VehicleStream {
     return *command;
   }
 
-  Command appliedOf(const rosbag::MessageInstance& instance) const {
+  Command appliedOf(const rosbag::MessageInstance& instance) {
     const auto message = messageAs<hovercraft_sim::AppliedCommand>(path_, instance);
     if (message->tick > static_cast<std::uint64_t>(std::numeric_limits<Tick>::max())) {
       failAt(path_, instance, fmt::format("tick = {}: must fit 63 bits", message->tick));
@@ -112,6 +112,13 @@ class VehicleStream {
     if (message->engines == 0 || message->engines > hovercraft::kAllEngines) {
       failAt(path_, instance, fmt::format("engines = {}: must be 1 to 7", message->engines));
     }
+    if (first_episode_.value_or(message->episode) != message->episode) {
+      failAt(path_, instance,
+             fmt::format("episode {}: must be episode {} as before; a bag with a reset is for the "
+                         "tool replay",
+                         message->episode, *first_episode_));
+    }
+    first_episode_ = message->episode;
     const Command command = toCommand(*message, topics_.vehicle);
     if (!command.thrusts.allFinite()) failAt(path_, instance, "a thrust must be finite");
     return command;
@@ -124,6 +131,7 @@ class VehicleStream {
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator next_;
   std::optional<Command> head_;
+  std::optional<std::uint32_t> first_episode_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -109,8 +110,15 @@ void SpaceReader::add(Trajectory& trajectory, const TrajectorySample& sample,
 Trajectory SpaceReader::fromState() const {
   Trajectory trajectory = emptyTrajectory(topic(kStateTopic) + ", centre of mass");
   std::vector<std::int64_t> stamps_ns;
+  std::optional<std::uint32_t> first_episode;
   forEach<hovercraft_sim::State>(
       kStateTopic, [&](const auto& state, const rosbag::MessageInstance& instance) {
+        if (first_episode.value_or(state.episode) != state.episode) {
+          failAt(path_, instance,
+                 fmt::format("episode {}: must be episode {} as before; a trajectory has no reset",
+                             state.episode, *first_episode));
+        }
+        first_episode = state.episode;
         TrajectorySample sample;
         sample.time_ns = static_cast<std::int64_t>(state.tick);  // times the step size, below
         sample.p_WB = fromMessage(state.pose.position);

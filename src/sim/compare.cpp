@@ -148,7 +148,11 @@ double columnOf(const TrajectorySample& sample, std::size_t column) {
 }
 
 bool haveSameBits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof(a)) == 0;
+  std::uint64_t bits_a = 0;
+  std::uint64_t bits_b = 0;
+  std::memcpy(&bits_a, &a, sizeof(bits_a));
+  std::memcpy(&bits_b, &b, sizeof(bits_b));
+  return bits_a == bits_b;
 }
 
 std::optional<Divergence> firstDifferentBit(const std::vector<Pair>& pairs, bool with_velocities) {

@@ -78,8 +78,7 @@ struct FreeMotion {
 };
 class FreeBodyClosedForm : public ::testing::TestWithParam<FreeMotion> {};
 
-// The closed form against RK4 at 0.1 ms (error below 1e-14 by its order, plus rounding of 2e4
-// steps).
+// The closed form against RK4 at 0.4 ms, whose error of order h^4 was 2.2e-13 at worst.
 TEST_P(FreeBodyClosedForm, IsTheMotionThatTheEquationsGive) {
   Brick brick;
   brick.moments = GetParam().moments;
@@ -90,13 +89,13 @@ TEST_P(FreeBodyClosedForm, IsTheMotionThatTheEquationsGive) {
   EXPECT_LT((exact.angularVelocityInBody(exact.period()) - brick.w_WB_B).cwiseAbs().maxCoeff(),
             1e-13);
   for (const double time : {0.5, 2.0}) {
-    const auto steps = static_cast<int>(1e4 * time);
+    const auto steps = static_cast<int>(2500.0 * time);
     const auto state = freeFlight<Quaternion>(Integrator::kRungeKutta4, brick, time, steps);
     const Matrix3 R_WB = rotationMatrix(state.orientation);
-    EXPECT_LT((exact.attitude(time) - R_WB).cwiseAbs().maxCoeff(), 1e-13) << time;
+    EXPECT_LT((exact.attitude(time) - R_WB).cwiseAbs().maxCoeff(), 1e-12) << time;
     EXPECT_LT(orthogonalityError(exact.attitude(time)), 1e-14) << time;
     const Vector3 w_WB_B = brick.mobility().angularVelocityInBody(state.angular_momentum_W, R_WB);
-    EXPECT_LT((exact.angularVelocityInBody(time) - w_WB_B).cwiseAbs().maxCoeff(), 1e-13) << time;
+    EXPECT_LT((exact.angularVelocityInBody(time) - w_WB_B).cwiseAbs().maxCoeff(), 1e-12) << time;
   }
 }
 

@@ -170,6 +170,16 @@ TEST_F(CommandsBag, EveryBadMessageIsNamedByTopicTimeAndRule) {
   check(
       [](rosbag::Bag& bag) {
         bag.write("/craft/commands", after(1.0), appliedAt(9, 1.0));
+        auto message = appliedAt(2, 1.0);
+        message.episode = 1;
+        bag.write("/craft/commands", after(2.0), message);
+      },
+      "commands at 1700000002.250000000: episode 1: must be episode 0 as before; a bag with a "
+      "reset "
+      "is for the tool replay");
+  check(
+      [](rosbag::Bag& bag) {
+        bag.write("/craft/commands", after(1.0), appliedAt(9, 1.0));
         bag.write("/craft/commands", after(2.0), appliedAt(8, 1.0));
       },
       "commands at 1700000002.250000000: the command is for tick 8: must not be before tick 9 of "

@@ -208,6 +208,15 @@ TEST_F(TrajectoryFile, EveryBadMessageIsNamedByTopicTimeAndRule) {
   check(
       [](rosbag::Bag& bag) {
         bag.write("/craft/state", stampOfTick(1), stateAt(1));
+        auto state = stateAt(2);
+        state.episode = 1;
+        bag.write("/craft/state", stampOfTick(2), state);
+      },
+      "/craft/state at 1700000000.127456789: episode 1: must be episode 0 as before; a trajectory "
+      "has no reset");
+  check(
+      [](rosbag::Bag& bag) {
+        bag.write("/craft/state", stampOfTick(1), stateAt(1));
         auto late = stateAt(2);
         late.header.stamp += ros::Duration(0, 1);
         bag.write("/craft/state", stampOfTick(2), late);

@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -66,7 +67,11 @@ class StatesCsv : public ::testing::Test {
 };
 
 bool haveSameBits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof(a)) == 0;
+  std::uint64_t bits_a = 0;
+  std::uint64_t bits_b = 0;
+  std::memcpy(&bits_a, &a, sizeof(bits_a));
+  std::memcpy(&bits_b, &b, sizeof(bits_b));
+  return bits_a == bits_b;
 }
 
 bool haveSameBits(const Vector3& a, const Vector3& b) {
