@@ -237,7 +237,9 @@ void run(int n, bool coherent) {
   }
   for (auto& [name, score] : scores) {
     std::sort(score.times.begin(), score.times.end());
-    const double steps = score.queries > 0 ? static_cast<double>(score.steps) / score.queries : 0;
+    const double steps = score.queries > 0
+                             ? static_cast<double>(score.steps) / static_cast<double>(score.queries)
+                             : 0.0;
     fmt::print("{},{},{},{:.1f},{:.2f},{:.2e}\n", name, n, coherent ? "coherent" : "incoherent",
                score.times[score.times.size() / 2], steps, score.error);
   }
