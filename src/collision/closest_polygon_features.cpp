@@ -56,6 +56,7 @@ class PolygonWalk {
   const ConvexPolygon::Edge& edge(int side) const {
     return body_[side]->edge(feature_[side].index);
   }
+  int deepestVertex(int side, const Vector2& n) const;
   void overlapAlongEdges(int side);
 
   const ConvexPolygon* body_[2];
@@ -164,30 +165,36 @@ bool PolygonWalk::run(const FeaturePair& start) {
   return false;
 }
 
+/// The vertex of a side that lies deepest against n.
+int PolygonWalk::deepestVertex(int side, const Vector2& n) const {
+  const ConvexPolygon& body = *body_[side];
+  const Vector2 local = rotatedBack(pose_[side], n);
+  int deepest = 0;
+  for (int k = 1; k < body.vertexCount(); ++k) {
+    if (dot(local, body.vertex(k)) < dot(local, body.vertex(deepest))) deepest = k;
+  }
+  return deepest;
+}
+
 void PolygonWalk::overlapAlongEdges(int side) {
   const int other = 1 - side;
   for (int i = 0; i < body_[side]->vertexCount(); ++i) {
     const ConvexPolygon::Edge& e = body_[side]->edge(i);
     const Vector2 n = rotated(pose_[side], outward(e));
-    double low = std::numeric_limits<double>::infinity();
-    int deepest = 0;
-    for (int k = 0; k < body_[other]->vertexCount(); ++k) {
-      const double height = dot(n, toWorld(other, body_[other]->vertex(k)));
-      if (height < low) {
-        low = height;
-        deepest = k;
-      }
-    }
-    const double overlap = dot(n, toWorld(side, e.p)) - low;
-    if (-overlap <= result_.distance) continue;
+    const int deepest = deepestVertex(other, n);
     const Vector2 v = toWorld(other, body_[other]->vertex(deepest));
+    const double overlap = dot(n, toWorld(side, e.p) - v);
+    if (-overlap <= result_.distance) continue;
     const Vector2 foot = v + overlap * n;
+    const Feature edge_feature{FeatureKind::kEdge, i};
+    const Feature vertex_feature{FeatureKind::kVertex, deepest};
+    const bool edge_of_A = side == 0;
     result_.distance = -overlap;
-    result_.nhat_AB_W = side == 0 ? n : -1.0 * n;
-    result_.p_WCa = side == 0 ? foot : v;
-    result_.p_WCb = side == 0 ? v : foot;
-    (side == 0 ? result_.feature_a : result_.feature_b) = {FeatureKind::kEdge, i};
-    (side == 0 ? result_.feature_b : result_.feature_a) = {FeatureKind::kVertex, deepest};
+    result_.nhat_AB_W = edge_of_A ? n : -1.0 * n;
+    result_.p_WCa = edge_of_A ? foot : v;
+    result_.p_WCb = edge_of_A ? v : foot;
+    result_.feature_a = edge_of_A ? edge_feature : vertex_feature;
+    result_.feature_b = edge_of_A ? vertex_feature : edge_feature;
   }
 }
 

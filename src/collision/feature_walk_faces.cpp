@@ -3,30 +3,34 @@
 namespace hovercraft {
 namespace {
 
+struct Top {
+  std::int32_t place;
+  double value;
+};
+
+/// Goes `stride` places to the higher side, if one is higher than here.
+template <typename Function>
+bool rise(std::int32_t count, std::int32_t stride, const Function& f, Top& top) {
+  const Top right{(top.place + stride) % count, f((top.place + stride) % count)};
+  const Top left{(top.place - stride + count) % count, f((top.place - stride + count) % count)};
+  if (right.value <= top.value && left.value <= top.value) return false;
+  top = right.value > left.value ? right : left;
+  return true;
+}
+
 /// The place of the largest value of f over a cycle of `count` places, where f rises to it from
 /// both sides, starting at `hint`: one look to either side when the hint is right, else strides
 /// that halve.
 template <typename Function>
 std::int32_t topOfCycle(std::int32_t count, std::int32_t hint, const Function& f) {
-  const auto wrap = [count](std::int32_t i) { return (i + count) % count; };
-  std::int32_t top = hint < 0 || hint >= count ? 0 : hint;
-  double value = f(top);
-  std::int32_t stride = 1;
-  bool first = true;
-  for (std::int32_t moves = 0; moves < 4 * count && stride >= 1; ++moves) {
-    const double right = f(wrap(top + stride));
-    const double left = f(wrap(top - stride));
-    if (right > value || left > value) {
-      top = wrap(right > left ? top + stride : top - stride);
-      value = std::max(right, left);
-      if (first) stride = std::max(1, count / 4);
-      first = false;
-    } else {
-      if (first) return top;
-      stride /= 2;
+  const std::int32_t start = hint < 0 || hint >= count ? 0 : hint;
+  Top top{start, f(start)};
+  if (!rise(count, 1, f, top)) return top.place;
+  for (std::int32_t stride = count / 4; stride >= 1; stride /= 2) {
+    for (std::int32_t moves = 0; moves < count && rise(count, stride, f, top); ++moves) {
     }
   }
-  return top;
+  return top.place;
 }
 
 }  // namespace

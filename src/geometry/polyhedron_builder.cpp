@@ -165,13 +165,8 @@ void addEdges(PolyhedronData& data, const Rings& rings) {
   }
 }
 
-/// The spokes of each vertex, counter-clockwise: from a half-edge that leaves the vertex to the one
-/// before it in the ring of its left face, which ends here; its twin leaves.
-void addFans(PolyhedronData& data) {
-  const auto leaving = [&](std::int32_t ring_position, std::int32_t vertex) {
-    const std::int32_t e = data.ring_edge[at(ring_position)];
-    return 2 * e + (data.edges[at(e)].vertex[0] == vertex ? 0 : 1);
-  };
+/// For each vertex an edge that leaves it, as in PolyhedronData::fan_edge.
+std::vector<std::int32_t> firstSpokes(const PolyhedronData& data) {
   std::vector<std::int32_t> first(data.vertices.size(), -1);
   for (std::size_t e = 0; e < data.edges.size(); ++e) {
     for (int side = 0; side < 2; ++side) {
@@ -179,29 +174,39 @@ void addFans(PolyhedronData& data) {
       if (start < 0) start = static_cast<std::int32_t>(2 * e) + side;
     }
   }
+  return first;
+}
+
+/// The spoke that follows counter-clockwise around `vertex`: the edge before this one in the ring
+/// of its left face ends here, so its other way leaves.
+std::int32_t nextSpoke(const PolyhedronData& data, std::int32_t half, std::int32_t vertex) {
+  const Edge& edge = data.edges[at(half / 2)];
+  const Face& face = data.faces[at(edge.face[half % 2])];
+  const std::int32_t position = edge.ring[half % 2];
+  const bool wraps = position == face.ring_begin;
+  const std::int32_t previous = wraps ? position + face.ring_count - 1 : position - 1;
+  const std::int32_t e = data.ring_edge[at(previous)];
+  return 2 * e + (data.edges[at(e)].vertex[0] == vertex ? 0 : 1);
+}
+
+void addFans(PolyhedronData& data) {
+  const std::vector<std::int32_t> first = firstSpokes(data);
   data.fan.reserve(2 * data.edges.size());
   data.fan_edge.reserve(2 * data.edges.size());
   for (std::size_t v = 0; v < data.vertices.size(); ++v) {
-    data.vertices[v].fan_begin = static_cast<std::int32_t>(data.fan.size());
+    const auto begin = static_cast<std::int32_t>(data.fan.size());
     std::int32_t half = first[v];
     do {
       const Edge& edge = data.edges[at(half / 2)];
-      const int side = half % 2;
-      const Vector3 direction = side == 0 ? edge.direction : Vector3(-edge.direction);
+      const Vector3 direction = half % 2 == 0 ? edge.direction : Vector3(-edge.direction);
       data.fan.push_back({direction, edge.length});
       data.fan_edge.push_back(half);
-      const Face& face = data.faces[at(edge.face[side])];
-      const std::int32_t position = edge.ring[side];
-      const std::int32_t previous =
-          position > face.ring_begin ? position - 1 : position + face.ring_count - 1;
-      half = leaving(previous, static_cast<std::int32_t>(v));
+      half = nextSpoke(data, half, static_cast<std::int32_t>(v));
     } while (half != first[v]);
-    data.vertices[v].fan_count =
-        static_cast<std::int32_t>(data.fan.size()) - data.vertices[v].fan_begin;
+    data.vertices[v].fan_begin = begin;
+    data.vertices[v].fan_count = static_cast<std::int32_t>(data.fan.size()) - begin;
   }
-  if (data.fan.size() != 2 * data.edges.size()) {
-    refuse("the surface touches itself in a vertex");
-  }
+  if (data.fan.size() != 2 * data.edges.size()) refuse("the surface touches itself in a vertex");
 }
 
 /// A point inside each face of many edges, and a direction inside the cone of each vertex of many:
