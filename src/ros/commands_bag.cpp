@@ -119,7 +119,7 @@ class VehicleStream {
                          message->episode, *first_episode_));
     }
     first_episode_ = message->episode;
-    const Command command = toCommand(*message, topics_.vehicle);
+    Command command = toCommand(*message, topics_.vehicle);
     if (!command.thrusts.allFinite()) failAt(path_, instance, "a thrust must be finite");
     return command;
   }
@@ -175,7 +175,7 @@ class BagCommandSource::Streams {
       if (first == nullptr || stream->head()->tick < first->head()->tick) first = stream.get();
     }
     if (first == nullptr) return std::nullopt;
-    const std::optional<Command> command = first->head();
+    std::optional<Command> command = first->head();
     first->advance();
     return command;
   }

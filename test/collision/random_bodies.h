@@ -37,6 +37,7 @@ class RandomBodies {
   /// The hull of n points on an ellipsoid with the given semi-axes: n vertices.
   ConvexPolyhedron ellipsoidHull(int n, const Vector3& axes) {
     std::vector<Vector3> points;
+    points.reserve(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) points.emplace_back(unitVector().cwiseProduct(axes));
     return convexHull(points, "random hull");
   }
