@@ -215,6 +215,17 @@ Query bulletQuery(const Scene& scene) {
 }
 #endif
 
+void print(int n, bool coherent, std::map<std::string, Score>& scores) {
+  for (auto& [name, score] : scores) {
+    std::sort(score.times.begin(), score.times.end());
+    const double steps = score.queries > 0
+                             ? static_cast<double>(score.steps) / static_cast<double>(score.queries)
+                             : 0.0;
+    fmt::print("{},{},{},{:.1f},{:.2f},{:.2e}\n", name, n, coherent ? "coherent" : "incoherent",
+               score.times[score.times.size() / 2], steps, score.error);
+  }
+}
+
 void run(int n, bool coherent) {
   RandomBodies random(static_cast<unsigned>(2 * n) + (coherent ? 1 : 0));
   std::map<std::string, Score> scores;
@@ -235,14 +246,7 @@ void run(int n, bool coherent) {
       for (const auto& [name, query] : peers) measure(scene, query, scores[name]);
     }
   }
-  for (auto& [name, score] : scores) {
-    std::sort(score.times.begin(), score.times.end());
-    const double steps = score.queries > 0
-                             ? static_cast<double>(score.steps) / static_cast<double>(score.queries)
-                             : 0.0;
-    fmt::print("{},{},{},{:.1f},{:.2f},{:.2e}\n", name, n, coherent ? "coherent" : "incoherent",
-               score.times[score.times.size() / 2], steps, score.error);
-  }
+  print(n, coherent, scores);
 }
 
 }  // namespace

@@ -37,27 +37,28 @@ void BroadPhase::update(int index, const AxisAlignedBox& box) {
   boxes_[static_cast<std::size_t>(index)] = box;
 }
 
-const std::vector<std::pair<std::int32_t, std::int32_t>>& BroadPhase::pairs() {
-  pairs_.clear();
-  if (boxes_.empty()) return pairs_;
-  const auto box = [this](std::int32_t i) -> const AxisAlignedBox& {
-    return boxes_[static_cast<std::size_t>(i)];
-  };
-  const int axis = widestAxis(boxes_);
+void BroadPhase::sortAlong(int axis) {
   const auto before = [&](std::int32_t a, std::int32_t b) {
     return box(a).low[axis] != box(b).low[axis] ? box(a).low[axis] < box(b).low[axis] : a < b;
   };
   if (axis != axis_) {
     axis_ = axis;
     std::sort(order_.begin(), order_.end(), before);
-  } else {
-    for (std::size_t i = 1; i < order_.size(); ++i) {
-      const std::int32_t moved = order_[i];
-      std::size_t k = i;
-      for (; k > 0 && before(moved, order_[k - 1]); --k) order_[k] = order_[k - 1];
-      order_[k] = moved;
-    }
+    return;
   }
+  for (std::size_t i = 1; i < order_.size(); ++i) {
+    const std::int32_t moved = order_[i];
+    std::size_t k = i;
+    for (; k > 0 && before(moved, order_[k - 1]); --k) order_[k] = order_[k - 1];
+    order_[k] = moved;
+  }
+}
+
+const std::vector<std::pair<std::int32_t, std::int32_t>>& BroadPhase::pairs() {
+  pairs_.clear();
+  if (boxes_.empty()) return pairs_;
+  const int axis = widestAxis(boxes_);
+  sortAlong(axis);
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const AxisAlignedBox& first = box(order_[i]);
     for (std::size_t k = i + 1; k < order_.size() && box(order_[k]).low[axis] <= first.high[axis];

@@ -32,6 +32,10 @@ ConvexPolygon::ConvexPolygon(std::vector<Vector2> vertices) : vertices_(std::mov
     edges_.push_back({vertex(i), (1.0 / length) * along, length});
     radius_ = std::max(radius_, std::sqrt(dot(vertex(i), vertex(i))));
   }
+  checkTurns();
+}
+
+void ConvexPolygon::checkTurns() const {
   double worst = 1.0;
   int worst_vertex = 0;
   int turns_from_down_to_up = 0;  // once around the circle of directions

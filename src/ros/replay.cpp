@@ -20,11 +20,17 @@ namespace {
 using hovercraft_sim::RunEvent;
 using hovercraft_sim::State;
 
+std::uint64_t bitsOf(double number) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &number, sizeof(bits));
+  return bits;
+}
+
 /// The first of several numbers that differ in their bits.
 class FieldComparison {
  public:
   void add(const char* field, double recorded, double replayed) {
-    if (field_ != nullptr || std::memcmp(&recorded, &replayed, sizeof(double)) == 0) return;
+    if (field_ != nullptr || bitsOf(recorded) == bitsOf(replayed)) return;
     field_ = field;
     recorded_ = fmt::format("{:.17g}", recorded);
     replayed_ = fmt::format("{:.17g}", replayed);
@@ -186,7 +192,7 @@ class Replayer {
 };
 
 /// Sets one key of the scenario's tree, which must exist there.
-void setKey(YAML::Node tree, const std::string& assignment) {
+void setKey(const YAML::Node& tree, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw std::invalid_argument("--set " + assignment + ": must be KEY.PATH=VALUE");

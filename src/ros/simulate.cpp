@@ -141,7 +141,7 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
     plan.on_progress = [&bar](Tick tick) { bar->show(tick); };
   }
   const auto begin = std::chrono::steady_clock::now();
-  const hovercraft::RunSummary summary = hovercraft::run(simulation, *commands, *output, plan);
+  hovercraft::RunSummary summary = hovercraft::run(simulation, *commands, *output, plan);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   bar.reset();
 

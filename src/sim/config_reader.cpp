@@ -27,7 +27,7 @@ std::string textOf(const YAML::Node& node) {
 
 /// What a message shows of a value: not a whole tree.
 std::string shown(const YAML::Node& node) {
-  const std::string text = textOf(node);
+  std::string text = textOf(node);
   if (text.size() <= kLongestShown) return text;
   const auto continues_character = [](char c) {  // of UTF-8
     return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U;

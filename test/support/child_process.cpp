@@ -12,6 +12,7 @@ namespace hovercraft_ros::testing {
 ChildProcess::ChildProcess(const std::vector<std::string>& command) : name_(command.at(0)) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const int error = posix_spawnp(&pid_, arguments[0], nullptr, nullptr, arguments.data(), environ);

@@ -27,6 +27,13 @@ class BroadPhase {
   const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs();
 
  private:
+  const AxisAlignedBox& box(std::int32_t index) const {
+    return boxes_[static_cast<std::size_t>(index)];
+  }
+  /// Sorts the boxes by their lower ends; by insertion, as little changes from call to call, unless
+  /// the axis did.
+  void sortAlong(int axis);
+
   std::vector<AxisAlignedBox> boxes_;
   std::vector<std::int32_t> order_;  // by low end along axis_
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;

@@ -53,6 +53,9 @@ class ConvexPolygon {
   std::vector<VoronoiPlane> voronoiPlanes(Feature feature) const;
 
  private:
+  /// Once around, to the left at every vertex; throws if not.
+  void checkTurns() const;
+
   std::vector<Vector2> vertices_;
   std::vector<Edge> edges_;
   double radius_ = 0.0;
