@@ -136,7 +136,7 @@ void measureOurs(const Scene& scene, bool coherent, Score& score) {
     }
   }
   score.times.push_back((threadTime() - start) / kQueries);
-  score.queries += 2 * kQueries;
+  score.queries += 2L * kQueries;
   if (!(sum > 0.0)) fmt::print(stderr, "no distance\n");
 }
 

@@ -106,7 +106,9 @@ Names violationsIn(const std::string& module, const std::string& file, std::istr
     if (included.empty()) continue;
     const std::string rule = broken(module, included);
     if (rule.empty()) continue;
-    violations.push_back(file + ":" + std::to_string(number) + ": " + line + ": " + rule);
+    std::string violation = file;
+    violation.append(":").append(std::to_string(number)).append(": ").append(line);
+    violations.push_back(violation.append(": ").append(rule));
   }
   return violations;
 }

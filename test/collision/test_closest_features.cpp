@@ -228,6 +228,7 @@ TEST(ClosestFeatures, QueriesDoNotAllocate) {
   const ConvexPolyhedron A = randomBody(random, 100, 1.0);
   const ConvexPolyhedron B = randomBody(random, 100, 1.0);
   std::vector<Pose> poses;
+  poses.reserve(300);
   for (int i = 0; i < 300; ++i) poses.push_back(random.pose(0.01 * i));
   FeaturePair last;
   int penetrating = 0;

@@ -13,6 +13,7 @@ namespace {
 ConvexPolygon randomPolygon(RandomBodies& random, double size) {
   std::vector<Vector2> points;
   const int n = random.integer(3, 12);
+  points.reserve(static_cast<std::size_t>(n) + 3);
   for (int i = 0; i < n + 3; ++i) {
     points.push_back({size * random.uniform(-1, 1), size * random.uniform(-1, 1)});
   }

@@ -17,8 +17,11 @@ TEST(ConvexHull, MergesCoplanarFacetsAndLeavesOutPointsOnThem) {
   for (int sample = 0; sample < 20; ++sample) {
     const Matrix3 R = rotationMatrix(random.orientation());
     std::vector<Vector3> points;
-    for (int i = 0; i < 125; ++i) {
-      points.push_back(times(R, Vector3(i % 5, i / 5 % 5, i / 25)));
+    points.reserve(125);
+    for (int x = 0; x < 5; ++x) {
+      for (int y = 0; y < 5; ++y) {
+        for (int z = 0; z < 5; ++z) points.push_back(times(R, Vector3(x, y, z)));
+      }
     }
     const ConvexPolyhedron hull = convexHull(points, "grid");
     EXPECT_EQ(hull.vertexCount(), 8);
@@ -31,6 +34,7 @@ TEST(ConvexHull, HoldsEveryPointAndKeepsTheirOrder) {
   RandomBodies random(12);
   for (int sample = 0; sample < 30; ++sample) {
     std::vector<Vector3> points;
+    points.reserve(100);
     for (int i = 0; i < 100; ++i) points.push_back(random.uniform(0.1, 1.0) * random.unitVector());
     const ConvexPolyhedron hull = convexHull(points, "cloud");
     for (const Vector3& p : points) {
