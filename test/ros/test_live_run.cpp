@@ -14,7 +14,6 @@
 namespace hovercraft_ros {
 namespace {
 
-using hovercraft::Quaternion;
 using hovercraft::Scenario;
 using hovercraft::Vector3;
 using hovercraft::testing::parsed;

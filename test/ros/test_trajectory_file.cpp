@@ -19,7 +19,6 @@
 namespace hovercraft_ros {
 namespace {
 
-using hovercraft::Trajectory;
 using hovercraft::Vector3;
 using hovercraft::testing::messageOf;
 using hovercraft::testing::TestFolder;

@@ -24,7 +24,7 @@ inline XmlRpc::XmlRpcValue loadedByRosparam(const YAML::Node& node) {
     }
     return value;
   }
-  const std::string text = node.Scalar();
+  const std::string& text = node.Scalar();
   if (text == "true" || text == "false") return XmlRpc::XmlRpcValue(text == "true");
   if (text.find_first_not_of("+-0123456789") == std::string::npos) {
     return XmlRpc::XmlRpcValue(std::atoi(text.c_str()));
