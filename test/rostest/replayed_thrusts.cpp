@@ -18,7 +18,7 @@ namespace {
 
 using hovercraft::EngineId;
 
-// replay.yaml
+// replayed_thrusts.yaml
 constexpr double kStep = 0.001;        // s
 constexpr double kMass = 2.0;          // kg
 constexpr double kDrag = 2.5;          // N s/m
