@@ -54,6 +54,8 @@ def read_results(folder):
                 failures.append(f"{file.name}: {name} {'failed' if bad else 'was skipped'}")
             else:
                 passed.add(name)
+                # Typed tests may name their types: 'Suite/Quaternion' is Suite as well.
+                passed.update(f"{part}.{name.split('.', 1)[1]}" for part in case.get('classname', '').split('/'))
     return passed, failures, {file.stem for file in files}
 
 

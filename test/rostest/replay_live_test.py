@@ -62,6 +62,7 @@ class ReplayLiveTest(unittest.TestCase):
                     process.wait()
                 recorder.send_signal(signal.SIGINT)
                 recorder.wait(DEADLINE)
+            wait_until(lambda: os.path.exists(bag), 'the recorder to close its bag')
             with rosbag.Bag(bag) as recorded:
                 count = recorded.get_message_count(['/hovercraft/commands'])
             replay = subprocess.run(['rosrun', 'hovercraft_sim', 'replay', bag], stdout=subprocess.PIPE,
