@@ -93,7 +93,7 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
   const ros::Time stamp = stampOfTick(simulation.tick());
   transforms_.transforms.clear();
   for (VehicleMessages& messages : vehicles_) {
-    messages.fill(simulation, stamp, episode_);
+    messages.fill(simulation, {stamp, episode_, events_});
     write(topic(messages, kPoseTopic), stamp, messages.pose());
     write(topic(messages, kTwistTopic), stamp, messages.twist());
     write(topic(messages, kOdomTopic), stamp, messages.odom());
@@ -105,14 +105,16 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
 }
 
 void BagWriter::applied(const hovercraft::Command& command) {
-  const VehicleMessages& messages = vehicles_[command.vehicle];
+  VehicleMessages& messages = vehicles_[command.vehicle];
   const ros::Time stamp = stampOfTick(command.tick);
-  write(topic(messages, kCommandsTopic), stamp, messages.appliedCommand(command, stamp, episode_));
+  write(topic(messages, kCommandsTopic), stamp,
+        messages.appliedCommand(command, {stamp, episode_, events_}));
 }
 
 void BagWriter::event(const hovercraft_sim::RunEvent& event,
                       const hovercraft::Simulation& simulation) {
   hovercraft_sim::RunEvent written = event;
+  written.number = ++events_;
   const auto tick = static_cast<hovercraft::Tick>(event.tick);
   written.header.stamp = stampOfTick(tick);
   write(kEventsTopic, written.header.stamp, written);

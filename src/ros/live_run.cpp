@@ -27,6 +27,7 @@ RunEvent LiveRun::apply(RunEvent event) {
     epoch_ns_ = now_ns - simulation_.timeNs();
   }
   event.episode = episode_;
+  event.number = ++events_;
   return event;
 }
 

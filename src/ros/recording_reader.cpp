@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <yaml-cpp/yaml.h>
 
@@ -23,7 +24,7 @@ using hovercraft_sim::AppliedCommand;
 using hovercraft_sim::RunEvent;
 using hovercraft_sim::State;
 
-/// Sees from sequence numbers which messages of a topic are missing.
+/// Counts from sequence numbers which messages of a topic are missing.
 class SequenceCheck {
  public:
   /// @param seq of the next message in the bag. @returns how many are missing before it.
@@ -36,6 +37,32 @@ class SequenceCheck {
 
  private:
   std::optional<std::uint32_t> next_;
+};
+
+/// The numbers of one topic's messages, which a run counts from 1.
+class Numbers {
+ public:
+  /// @returns false if the number was there already.
+  bool add(std::uint64_t number) { return present_.insert(number).second; }
+
+  struct Gap {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+  };
+  /// A state names the last number that it rests on.
+  void name(std::uint64_t number) { last_named_ = std::max(last_named_, number); }
+  /// The first numbers that are missing, if one of them is not above `needed`.
+  std::optional<Gap> gapBelow(std::uint64_t needed) {
+    while (present_.count(whole_ + 1) > 0) ++whole_;
+    if (whole_ >= needed) return std::nullopt;
+    const auto next = present_.upper_bound(whole_);
+    return Gap{whole_ + 1, next == present_.end() ? last_named_ : *next - 1};
+  }
+
+ private:
+  std::set<std::uint64_t> present_;
+  std::uint64_t whole_ = 0;  // up to here none is missing
+  std::uint64_t last_named_ = 0;
 };
 
 RunTime timeOf(const AppliedCommand& message) {
@@ -78,6 +105,7 @@ class Reader {
       throw std::invalid_argument(path_ + ": there is no state (hovercraft_sim/State) in it");
     }
     sort();
+    findGap();
     return std::move(recording_);
   }
 
@@ -110,40 +138,60 @@ class Reader {
 
   void readState(const rosbag::MessageInstance& instance) {
     const auto state = messageAs<State>(path_, instance);
-    recording_.missing_states += sequences_[instance.getTopic()].missingBefore(state->header.seq);
-    recording_.states.push_back({timeOf(*state), vehicleOf(instance), *state});
+    const std::size_t vehicle = vehicleOf(instance);
+    const RunTime time = timeOf(*state);
+    const auto [last, is_first] = last_times_.emplace(vehicle, time);
+    if (!is_first && !(last->second < time)) failAsTwoRuns(instance);
+    last->second = time;
+    recording_.missing_states += sequences_[vehicle].missingBefore(state->header.seq);
+    commands_[vehicle].name(state->commands);
+    events_.name(state->events);
+    recording_.states.push_back({time, vehicle, *state});
   }
 
   void readCommand(const rosbag::MessageInstance& instance) {
     const auto message = messageAs<AppliedCommand>(path_, instance);
-    noteGap(instance.getTopic(), message->header.seq);
-    recording_.commands.push_back({timeOf(*message), toCommand(*message, vehicleOf(instance))});
-    last_times_[instance.getTopic()] = timeOf(*message);
+    const std::size_t vehicle = vehicleOf(instance);
+    if (!commands_[vehicle].add(message->number)) failAsTwoRuns(instance);
+    recording_.commands.push_back({timeOf(*message), toCommand(*message, vehicle)});
   }
 
   void readEvent(const rosbag::MessageInstance& instance) {
     const auto event = messageAs<RunEvent>(path_, instance);
-    noteGap(instance.getTopic(), event->header.seq);
+    if (!events_.add(event->number)) failAsTwoRuns(instance);
     recording_.events.push_back(*event);
-    last_times_[instance.getTopic()] = timeOf(*event);
   }
 
-  /// What came before a gap is known up to the last message before it.
-  void noteGap(const std::string& topic, std::uint32_t seq) {
-    const std::uint32_t missing = sequences_[topic].missingBefore(seq);
-    if (missing == 0) return;
-    const RunTime last = last_times_.count(topic) > 0 ? last_times_[topic] : RunTime{0, 0};
-    if (!(last < recording_.known_until)) return;
-    recording_.known_until = last;
-    recording_.gap = fmt::format("{} message{} of {} after episode {}, tick {}", missing,
-                                 missing == 1 ? "" : "s", topic, last.episode,
-                                 std::max<hovercraft::Tick>(last.tick, 0));
+  [[noreturn]] void failAsTwoRuns(const rosbag::MessageInstance& instance) const {
+    failAt(path_, instance, "more than one run is in this bag; record each into a bag of its own");
+  }
+
+  /// States say how many commands and events they rest on.
+  void findGap() {
+    for (const Recording::RecordedState& recorded : recording_.states) {
+      const std::string& name = scenario_.vehicles[recorded.vehicle].name;
+      noteGap(recorded, commands_[recorded.vehicle].gapBelow(recorded.state.commands), "command",
+              " of " + name);
+      noteGap(recorded, events_.gapBelow(recorded.state.events), "event", "");
+      if (!recording_.gap.empty()) return;
+    }
+  }
+
+  void noteGap(const Recording::RecordedState& recorded, const std::optional<Numbers::Gap>& gap,
+               const char* what, const std::string& whose) {
+    if (!gap || !recording_.gap.empty()) return;
+    recording_.first_unknown = recorded.time;
+    recording_.gap = gap->first == gap->last
+                         ? fmt::format("{} {}{}", what, gap->first, whose)
+                         : fmt::format("{}s {} to {}{}", what, gap->first, gap->last, whose);
   }
 
   void sort() {
     const auto by_time = [](const auto& a, const auto& b) { return a.time < b.time; };
     std::stable_sort(recording_.commands.begin(), recording_.commands.end(), by_time);
-    std::stable_sort(recording_.states.begin(), recording_.states.end(), by_time);
+    std::sort(recording_.states.begin(), recording_.states.end(), [](const auto& a, const auto& b) {
+      return a.time < b.time || (!(b.time < a.time) && a.vehicle < b.vehicle);
+    });
     std::stable_sort(recording_.events.begin(), recording_.events.end(),
                      [](const RunEvent& a, const RunEvent& b) { return timeOf(a) < timeOf(b); });
   }
@@ -152,8 +200,10 @@ class Reader {
   rosbag::Bag bag_;
   hovercraft::Scenario scenario_;
   Recording recording_;
-  std::map<std::string, SequenceCheck> sequences_;
-  std::map<std::string, RunTime> last_times_;
+  std::map<std::size_t, SequenceCheck> sequences_;  // of the states, by vehicle
+  std::map<std::size_t, RunTime> last_times_;       // of the states, by vehicle
+  std::map<std::size_t, Numbers> commands_;         // by vehicle
+  Numbers events_;
 };
 
 }  // namespace

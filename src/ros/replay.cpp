@@ -93,15 +93,14 @@ class Replayer {
 
   ReplayResult run(bool compares) {
     for (const Recording::RecordedState& recorded : recording_.states) {
-      // A command at the last known tick may be one of several: nothing after that tick is known.
-      if (recording_.known_until < recorded.time) {
+      if (!(recorded.time < recording_.first_unknown)) {
         result_.is_whole = false;
         break;
       }
       advanceTo(recorded.time);
       tellObserver(recorded.time);
       if (compares) {
-        messages_[recorded.vehicle].fill(simulation_, recorded.state.header.stamp, episode_);
+        messages_[recorded.vehicle].fill(simulation_, {recorded.state.header.stamp, episode_});
         result_.difference = difference(recorded, messages_[recorded.vehicle].state(),
                                         messages_[recorded.vehicle].name());
         ++result_.compared_states;

@@ -94,7 +94,7 @@ void VehicleInterface::take(const std::optional<hovercraft::Command>& command,
 }
 
 void VehicleInterface::publish() {
-  messages_.fill(run_.simulation(), run_.stamp(), run_.episode());
+  messages_.fill(run_.simulation(), run_.place());
   pose_.publish(messages_.pose());
   twist_.publish(messages_.twist());
   odom_.publish(messages_.odom());
@@ -103,7 +103,7 @@ void VehicleInterface::publish() {
 }
 
 void VehicleInterface::publishApplied(const hovercraft::Command& command) {
-  commands_.publish(messages_.appliedCommand(command, run_.stamp(), run_.episode()));
+  commands_.publish(messages_.appliedCommand(command, run_.place()));
 }
 
 }  // namespace hovercraft_ros

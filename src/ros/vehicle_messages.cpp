@@ -26,11 +26,10 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
   state_.header.frame_id = world_frame;
 }
 
-void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::Time& stamp,
-                           std::uint32_t episode) {
+void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
   for (std_msgs::Header* header : {&pose_.header, &twist_.header, &odom_.header, &transform_.header,
                                    &engines_.header, &state_.header}) {
-    header->stamp = stamp;
+    header->stamp = place.stamp;
   }
   const hovercraft::Motion motion = simulation.motion(vehicle_);
   const HullMotion hull = hullMotion(motion, description_.mass_properties.p_HB);
@@ -48,7 +47,7 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::
   engines_.right = toMessage(simulation.engineReport(vehicle_, 2));
 
   state_.tick = static_cast<std::uint64_t>(simulation.tick());
-  state_.episode = episode;
+  state_.episode = place.episode;
   state_.pose.position = toPointMessage(motion.p_WB);
   state_.pose.orientation = toQuaternionMessage(motion.q_WB);
   state_.velocity = toVector3Message(motion.twist.v_WB);
@@ -57,15 +56,17 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const ros::
   state_.angular_momentum = toVector3Message(motion.angular_momentum_W);
   state_.thrust = {engines_.rear.applied, engines_.left.applied, engines_.right.applied};
   state_.energy = motion.energy;
+  state_.commands = commands_;
+  state_.events = place.events;
   state_.hash = simulation.hash(vehicle_);
 }
 
 hovercraft_sim::AppliedCommand VehicleMessages::appliedCommand(const hovercraft::Command& command,
-                                                               const ros::Time& stamp,
-                                                               std::uint32_t episode) const {
+                                                               const RunStamp& place) {
   hovercraft_sim::AppliedCommand message = toMessage(command);
-  message.episode = episode;
-  message.header.stamp = stamp;
+  message.episode = place.episode;
+  message.number = ++commands_;
+  message.header.stamp = place.stamp;
   message.header.frame_id = engines_.header.frame_id;
   return message;
 }

@@ -36,7 +36,7 @@ TEST(VehicleMessages, StampIsEpochPlusTimeInWholeNanoseconds) {
 TEST(VehicleMessages, EveryHeaderHasTheStampAndItsFrame) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0, "map");
-  messages.fill(simulation, kStamp);
+  messages.fill(simulation, {kStamp});
   const std::vector<const std_msgs::Header*> in_world = {
       &messages.pose().header, &messages.odom().header, &messages.transform().header,
       &messages.state().header};
@@ -61,11 +61,13 @@ TEST(VehicleMessages, TheWorldFrameIsCalledWorldIfNothingElseIsSaid) {
 TEST(VehicleMessages, TheStateHasEveryNumberAsTheSimulationHoldsIt) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
-  messages.fill(simulation, kStamp, 3);
+  messages.fill(simulation, {kStamp, 3, 7});
   const hovercraft_sim::State& state = messages.state();
   const hovercraft::Motion motion = simulation.motion(0);
   EXPECT_EQ(state.tick, 25U);
   EXPECT_EQ(state.episode, 3U);
+  EXPECT_EQ(state.commands, 0U);
+  EXPECT_EQ(state.events, 7U);
   EXPECT_EQ(fromMessage(state.pose.position), motion.p_WB);
   EXPECT_EQ(fromMessage(state.pose.orientation).s, motion.q_WB.s);
   EXPECT_EQ(fromMessage(state.pose.orientation).v, motion.q_WB.v);
@@ -85,7 +87,7 @@ TEST(VehicleMessages, TheStateHasEveryNumberAsTheSimulationHoldsIt) {
 TEST(VehicleMessages, PoseOdomAndTransformAreThoseOfBaseLink) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
-  messages.fill(simulation, kStamp);
+  messages.fill(simulation, {kStamp});
   const HullMotion hull = hullMotion(simulation.motion(0), Vector3(0.01, 0.02, 0.03));
   EXPECT_NE(hull.p_WH, simulation.motion(0).p_WB);
   EXPECT_EQ(fromMessage(messages.pose().pose.position), hull.p_WH);
@@ -101,7 +103,7 @@ TEST(VehicleMessages, PoseOdomAndTransformAreThoseOfBaseLink) {
 TEST(VehicleMessages, EachEngineReportsForItself) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
-  messages.fill(simulation, kStamp);
+  messages.fill(simulation, {kStamp});
   EXPECT_EQ(messages.engines().rear, toMessage(simulation.engineReport(0, 0)));
   EXPECT_EQ(messages.engines().left, toMessage(simulation.engineReport(0, 1)));
   EXPECT_EQ(messages.engines().right, toMessage(simulation.engineReport(0, 2)));
@@ -111,17 +113,22 @@ TEST(VehicleMessages, EachEngineReportsForItself) {
   EXPECT_EQ(messages.engines().right.applied, 0.25);
 }
 
-TEST(VehicleMessages, AnAppliedCommandCarriesStampFrameAndEpisode) {
+TEST(VehicleMessages, AnAppliedCommandCarriesStampFrameEpisodeAndNumber) {
   const Simulation simulation = flownSimulation();
-  const VehicleMessages messages(simulation.scenario(), 0);
-  const hovercraft_sim::AppliedCommand message = messages.appliedCommand(
-      {25, 0, hovercraft::maskOf(hovercraft::EngineId::kLeft), {0, 1, 0}}, kStamp, 4);
+  VehicleMessages messages(simulation.scenario(), 0);
+  const hovercraft::Command command = {
+      25, 0, hovercraft::maskOf(hovercraft::EngineId::kLeft), {0, 1, 0}};
+  const hovercraft_sim::AppliedCommand message = messages.appliedCommand(command, {kStamp, 4});
   EXPECT_EQ(message.header.stamp, kStamp);
   EXPECT_EQ(message.header.frame_id, "alpha/base_link");
   EXPECT_EQ(message.episode, 4U);
   EXPECT_EQ(message.tick, 25U);
   EXPECT_EQ(message.engines, hovercraft_sim::AppliedCommand::LEFT);
   EXPECT_EQ(message.left, 1.0);
+  EXPECT_EQ(message.number, 1U);
+  EXPECT_EQ(messages.appliedCommand(command, {kStamp, 5}).number, 2U);
+  messages.fill(simulation, {kStamp, 5});
+  EXPECT_EQ(messages.state().commands, 2U);
 }
 
 TEST(VehicleMessages, EngineFramesLieAtTheEnginesAndPointAlongTheThrust) {

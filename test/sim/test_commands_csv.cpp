@@ -56,6 +56,7 @@ TEST_F(CommandsCsv, TakesEffectAtTheFirstTickAtOrAfterItsTime) {
       "0.02,0,0,0\n0.29,0,0,0\n0.57,0,0,0\n1e3,0,0,0\n",
       one_);
   std::vector<Tick> ticks;
+  ticks.reserve(commands.size());
   for (const Command& command : commands) ticks.push_back(command.tick);
   // 0.29 / 0.01 and 0.57 / 0.01 are 28.999999999999996 and 56.99999999999999 in doubles.
   EXPECT_EQ(ticks, (std::vector<Tick>{1, 2, 2, 2, 29, 57, 100000}));

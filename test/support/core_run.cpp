@@ -52,7 +52,7 @@ struct Track {
     const auto state = states.find(static_cast<std::uint64_t>(simulation.tick()));
     if (state == states.end()) return "";
     const ros::Time stamp = state->second.header.stamp;
-    expected.fill(simulation, stamp);
+    expected.fill(simulation, {stamp});
     if (bitsWithoutHeader(state->second) != bitsWithoutHeader(expected.state())) {
       const auto& p = state->second.pose.position;
       const auto& q = expected.state().pose.position;
@@ -77,6 +77,7 @@ struct Track {
 std::string bitsOfMotion(hovercraft_sim::State state) {
   state.tick = 0;
   state.hash = 0;  // of the tick too
+  state.commands = 0;
   return bitsWithoutHeader(state);
 }
 
@@ -92,6 +93,9 @@ void expectEqualsCoreRun(const Recording& recording) {
     ASSERT_FALSE(tracks.back().engines.empty());
     last_tick = std::max(last_tick, tracks.back().lastTick());
   }
+  simulation.on_applied = [&tracks](const hovercraft::Command& command) {
+    tracks[command.vehicle].expected.appliedCommand(command, {});
+  };
   while (static_cast<std::uint64_t>(simulation.tick()) < last_tick) {
     simulation.step();
     for (Track& track : tracks) {

@@ -6,6 +6,7 @@
 #include <hovercraft_sim/RunEvent.h>
 #include <ros/time.h>
 
+#include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros {
@@ -22,12 +23,14 @@ class LiveRun {
   const hovercraft::Simulation& simulation() const { return simulation_; }
   std::uint32_t episode() const { return episode_; }
 
+  /// What messages say of the current tick.
+  RunStamp place() const { return {stamp(), episode_, events_}; }
   /// ROS time of the current tick.
   ros::Time stamp() const { return stampOf(simulation_.tick()); }
   ros::Time stampOf(hovercraft::Tick tick) const;
 
-  /// Applies an event at the current tick (run_events.h) and returns it with its header, tick and
-  /// episode.
+  /// Applies an event at the current tick (run_events.h) and returns it with its header, number,
+  /// tick and episode.
   /// @throws std::invalid_argument as applyEvent(); nothing has changed then.
   hovercraft_sim::RunEvent apply(hovercraft_sim::RunEvent event);
 
@@ -35,6 +38,7 @@ class LiveRun {
   hovercraft::Simulation simulation_;
   std::int64_t epoch_ns_;  // of tick 0 of this episode; below 0 after a load of a long run
   std::uint32_t episode_ = 0;
+  std::uint64_t events_ = 0;
 };
 
 }  // namespace hovercraft_ros

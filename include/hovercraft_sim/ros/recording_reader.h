@@ -39,19 +39,20 @@ struct Recording {
   std::vector<hovercraft_sim::RunEvent> events;
   std::vector<RecordedState> states;
 
-  /// Up to here every command and event is in the bag; beyond, `gap` says what is missing. The end
-  /// of time if nothing is.
-  RunTime known_until{UINT32_MAX, INT64_MAX};
+  /// The first state that rests on a command or an event that the bag lacks; `gap` says which. The
+  /// end of time if none does.
+  RunTime first_unknown{UINT32_MAX, INT64_MAX};
   std::string gap;
   /// States that the bag lacks: they are fewer to compare, no more.
   std::uint64_t missing_states = 0;
 };
 
 /// Reads topics by their types: State, AppliedCommand, RunEvent, and the scenario (std_msgs/String
-/// named .../scenario). Whether messages are missing is seen from header.seq, which a publisher
-/// counts up; a bag of `simulate`, where all are 0, is whole.
+/// named .../scenario). Which commands and events are missing is seen from their numbers, which
+/// each State repeats; which states, from header.seq, which a publisher counts up (a bag of
+/// `simulate`, where all are 0, is whole).
 /// @throws std::invalid_argument that names the file and what is wrong: no bag, no index, no
-/// scenario, no state, a vehicle that the scenario lacks.
+/// scenario, no state, a vehicle that the scenario lacks, more than one run.
 Recording readRecording(const std::string& path);
 
 }  // namespace hovercraft_ros

@@ -26,7 +26,7 @@ struct ReplayResult {
   hovercraft::Tick simulated_ticks = 0;
   std::uint64_t hash = 0;  // Simulation::hash() at the end
   RunTime end;             // of what was compared
-  bool is_whole = true;    // false: known_until came before the end of the recording
+  bool is_whole = true;    // false: the recording lacks what its last states rest on
 };
 
 /// What a replay hands on, each at its time; any may be empty.

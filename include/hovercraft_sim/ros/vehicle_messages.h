@@ -30,6 +30,13 @@ constexpr const char* kDefaultWorldFrame = "world";
 /// Simulated time as ROS time: epoch + n·h, from whole nanoseconds.
 ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
 
+/// Where a run stands in ROS time.
+struct RunStamp {
+  ros::Time stamp;            // the time of the tick
+  std::uint32_t episode = 0;  // 0 in a run without resets
+  std::uint64_t events = 0;   // RunEvents so far, of all episodes
+};
+
 /// Every message about one craft at one tick; the node publishes them, a bag writer writes them.
 /// The messages are kept and filled again, so that their strings are made once.
 class VehicleMessages {
@@ -39,14 +46,11 @@ class VehicleMessages {
                   const std::string& world_frame = kDefaultWorldFrame);
 
   /// Fills every message from the simulation as it stands.
-  /// @param stamp the time of its tick. @param episode of the run; 0 for one without resets.
-  void fill(const hovercraft::Simulation& simulation, const ros::Time& stamp,
-            std::uint32_t episode = 0);
+  void fill(const hovercraft::Simulation& simulation, const RunStamp& place);
 
-  /// @param stamp the time of the command's tick.
+  /// Numbers the command; states count it from then on. @param place at the command's tick.
   hovercraft_sim::AppliedCommand appliedCommand(const hovercraft::Command& command,
-                                                const ros::Time& stamp,
-                                                std::uint32_t episode = 0) const;
+                                                const RunStamp& place);
 
   /// base_link -> engine_rear, engine_left, engine_right; x along the positive thrust.
   std::vector<geometry_msgs::TransformStamped> engineFrames(const ros::Time& stamp) const;
@@ -62,6 +66,7 @@ class VehicleMessages {
  private:
   hovercraft::VehicleScenario description_;
   std::size_t vehicle_;
+  std::uint64_t commands_ = 0;  // that took effect so far
   geometry_msgs::PoseStamped pose_;
   geometry_msgs::TwistStamped twist_;
   nav_msgs::Odometry odom_;
