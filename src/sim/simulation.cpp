@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
 #include <utility>
 
 #include "hovercraft_sim/body/steppers.h"
@@ -57,6 +59,13 @@ bool sumWrenches(const std::vector<ExternalWrench>& wrenches, std::size_t vehicl
     sum = sum + external.wrench;
   }
   return any;
+}
+
+/// Ends what drag left of a momentum before it becomes a denormal number.
+void settle(Vector3& momentum) {
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(momentum(i)) < kSettledMomentum) momentum(i) = 0.0;
+  }
 }
 
 }  // namespace
@@ -140,12 +149,21 @@ void Simulation::stepVehicle(std::size_t vehicle) {
   std::visit(
       [&](auto& body) {
         body = integrationStep(scenario_.integrator, body, system, h_);
-        demand(isSound(body), "a state is not finite after a step; the step size is too long");
+        settle(body.momentum_W);
+        settle(body.angular_momentum_W);
+        if (!isSound(body)) failAsDiverged(vehicle);
       },
       state.body);
   for (int i = 0; i < kEngineCount; ++i) {
     state.engines[static_cast<std::size_t>(i)].thrust = thrusts.end[i];
   }
+}
+
+void Simulation::failAsDiverged(std::size_t vehicle) const {
+  throw std::runtime_error(fmt::format(
+      "vehicles.{}: the motion diverges (it is not finite after tick {}): step_size = {} s is too "
+      "long for these forces",
+      scenario_.vehicles[vehicle].name, state_.tick, h_));
 }
 
 void Simulation::step() {

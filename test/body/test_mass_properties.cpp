@@ -288,6 +288,9 @@ TEST(CheckInertia, EverySolidPasses) {
 // A lamina meets the triangle inequality with equality: Izz = Ixx + Iyy.
 TEST(CheckInertia, ALaminaPasses) {
   EXPECT_EQ(messageOf([] { checkInertia(diagonal(0.1, 0.2, 0.1 + 0.2), "inertia"); }), "no error");
+  // A plate of 1 kg, 0.632456 m by 1 m, to six digits: the largest is 3.4e-6 too large.
+  EXPECT_EQ(messageOf([] { checkInertia(diagonal(0.0333333, 0.0833333, 0.116667), "inertia"); }),
+            "no error");
 }
 
 TEST(CheckInertia, AnEntryThatIsNotFiniteIsNamed) {
@@ -327,7 +330,7 @@ TEST(CheckInertia, AMomentLargerThanTheOtherTwoIsRefused) {
   EXPECT_EQ(messageOf([] { checkInertia(diagonal(1.0, 4.0, 2.0), "inertia"); }),
             "inertia: its largest principal moment is 4 kg m^2: must be at most 3 kg m^2, the sum "
             "of the other two");
-  EXPECT_NE(messageOf([] { checkInertia(diagonal(1.0, 3.00000001, 2.0), "inertia"); }), "no error");
+  EXPECT_NE(messageOf([] { checkInertia(diagonal(1.0, 3.0001, 2.0), "inertia"); }), "no error");
 }
 
 // The triangle inequality is one of principal moments: it may fail where the entries meet it.

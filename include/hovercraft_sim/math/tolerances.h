@@ -16,8 +16,8 @@ constexpr double kUnitLength = 1e-6;
 
 /// Relative slack (-) of the checks on an inertia tensor given by a user: symmetric entries,
 /// triangle inequality. Flat bodies meet the inequality with equality, and their printed entries
-/// round to either side.
-constexpr double kInertiaSlack = 1e-9;
+/// round to either side; six digits leave this much.
+constexpr double kInertiaSlack = 1e-5;
 
 /// Smallest principal moment relative to the largest (-) that is told from 0: an eigenvalue is
 /// exact to a few units in the last place of the largest one.
@@ -79,8 +79,13 @@ constexpr double kCrossingEdges = 1e-4;
 /// Bound on the number of queries in one search for a time of impact. Each step of the search
 /// closes a fixed share of the gap at least; ten to a hundred are usual.
 constexpr int kMaxImpactQueries = 10000;
+
 /// Distance (N) from its demand below which a lagging thrust has arrived: without a bound it would
 /// end among the denormal numbers, which processors multiply a hundred times slower.
 constexpr double kSettledThrust = 1e-100;
+
+/// Momentum (kg m/s, kg m^2/s) below which a component counts as gone, for the same reason: drag
+/// lets it decay for ever, and its square must not be a denormal number either.
+constexpr double kSettledMomentum = 1e-100;
 
 }  // namespace hovercraft

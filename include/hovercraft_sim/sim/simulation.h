@@ -91,8 +91,8 @@ class Simulation {
   const SimulationState& state() const { return state_; }
 
   /// Applies the commands that are due and moves every craft from tick n to n + 1.
-  /// @throws std::logic_error if a state is not finite afterwards: the step is too long for the
-  /// forces.
+  /// @throws std::runtime_error that names the craft if its state is not finite afterwards: the step
+  /// is too long for the forces.
   void step();
 
   const Scenario& scenario() const { return scenario_; }
@@ -115,6 +115,7 @@ class Simulation {
  private:
   void applyDueCommands();
   void stepVehicle(std::size_t vehicle);
+  [[noreturn]] void failAsDiverged(std::size_t vehicle) const;
   void endWrenches();
 
   Scenario scenario_;
