@@ -4,6 +4,7 @@
 #include <boost/make_shared.hpp>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <vector>
 
 #include <ros/datatypes.h>
 #include <ros/message_traits.h>
@@ -51,7 +52,11 @@ void BagWriter::BagDeleter::operator()(rosbag::Bag* bag) const {
   try {
     bag->close();
   } catch (const rosbag::BagException&) {
-    return;  // why was thrown to whoever wrote last
+    // Why was thrown to whoever wrote last. The list keeps the bag in reach: it is no leak that
+    // grows unseen.
+    static auto& undeletable = *new std::vector<rosbag::Bag*>;
+    undeletable.push_back(bag);
+    return;
   }
   delete bag;
 }
