@@ -119,6 +119,7 @@ void BagWriter::applied(const hovercraft::Command& command) {
 void BagWriter::event(const hovercraft_sim::RunEvent& event,
                       const hovercraft::Simulation& simulation) {
   hovercraft_sim::RunEvent written = event;
+  if (event.episode != episode_) events_ = 0;
   written.number = ++events_;
   const auto tick = static_cast<hovercraft::Tick>(event.tick);
   written.header.stamp = stampOfTick(tick);

@@ -24,6 +24,7 @@ RunEvent LiveRun::apply(RunEvent event) {
   applyEvent(event, simulation_);
   if (event.kind == RunEvent::RESET || event.kind == RunEvent::LOAD) {
     ++episode_;
+    events_ = 0;
     epoch_ns_ = now_ns - simulation_.timeNs();
   }
   event.episode = episode_;

@@ -39,7 +39,7 @@ class SequenceCheck {
   std::optional<std::uint32_t> next_;
 };
 
-/// The numbers of one topic's messages, which a run counts from 1.
+/// The numbers of one topic's messages, which an episode counts from 1.
 class Numbers {
  public:
   /// @returns false if the number was there already.
@@ -105,7 +105,7 @@ class Reader {
       throw std::invalid_argument(path_ + ": there is no state (hovercraft_sim/State) in it");
     }
     sort();
-    findGap();
+    findGaps();
     return std::move(recording_);
   }
 
@@ -120,8 +120,8 @@ class Reader {
         continue;
       }
       recording_.scenario_text = messageAs<std_msgs::String>(path_, instance)->data;
-      scenario_ = hovercraft::parseScenario(YAML::Load(recording_.scenario_text),
-                                            {path_ + ": " + topic, "", {}});
+      recording_.scenario = hovercraft::parseScenario(YAML::Load(recording_.scenario_text),
+                                                      {path_ + ": " + topic, "", {}});
       return;
     }
     throw std::invalid_argument(path_ +
@@ -130,7 +130,7 @@ class Reader {
 
   std::size_t vehicleOf(const rosbag::MessageInstance& instance) const {
     try {
-      return vehicleIndex(scenario_, vehicleOfTopic(instance.getTopic()));
+      return vehicleIndex(recording_.scenario, vehicleOfTopic(instance.getTopic()));
     } catch (const std::invalid_argument& error) {
       failAt(path_, instance, error.what());
     }
@@ -144,21 +144,21 @@ class Reader {
     if (!is_first && !(last->second < time)) failAsTwoRuns(instance);
     last->second = time;
     recording_.missing_states += sequences_[vehicle].missingBefore(state->header.seq);
-    commands_[vehicle].name(state->commands);
-    events_.name(state->events);
+    commands_[{time.episode, vehicle}].name(state->commands);
+    events_[time.episode].name(state->events);
     recording_.states.push_back({time, vehicle, *state});
   }
 
   void readCommand(const rosbag::MessageInstance& instance) {
     const auto message = messageAs<AppliedCommand>(path_, instance);
     const std::size_t vehicle = vehicleOf(instance);
-    if (!commands_[vehicle].add(message->number)) failAsTwoRuns(instance);
+    if (!commands_[{message->episode, vehicle}].add(message->number)) failAsTwoRuns(instance);
     recording_.commands.push_back({timeOf(*message), toCommand(*message, vehicle)});
   }
 
   void readEvent(const rosbag::MessageInstance& instance) {
     const auto event = messageAs<RunEvent>(path_, instance);
-    if (!events_.add(event->number)) failAsTwoRuns(instance);
+    if (!events_[event->episode].add(event->number)) failAsTwoRuns(instance);
     recording_.events.push_back(*event);
   }
 
@@ -167,23 +167,26 @@ class Reader {
   }
 
   /// States say how many commands and events they rest on.
-  void findGap() {
+  void findGaps() {
     for (const Recording::RecordedState& recorded : recording_.states) {
-      const std::string& name = scenario_.vehicles[recorded.vehicle].name;
-      noteGap(recorded, commands_[recorded.vehicle].gapBelow(recorded.state.commands), "command",
-              " of " + name);
-      noteGap(recorded, events_.gapBelow(recorded.state.events), "event", "");
-      if (!recording_.gap.empty()) return;
+      const std::uint32_t episode = recorded.time.episode;
+      if (!recording_.gaps.empty() && recording_.gaps.back().begin.episode == episode) continue;
+      const auto& [time, vehicle, state] = recorded;
+      if (const auto gap = events_[episode].gapBelow(state.events)) {
+        noteGap(time, *gap, "event", "");
+      } else if (const auto lost = commands_[{episode, vehicle}].gapBelow(state.commands)) {
+        noteGap(time, *lost, "command", " of " + recording_.scenario.vehicles[vehicle].name);
+      }
     }
   }
 
-  void noteGap(const Recording::RecordedState& recorded, const std::optional<Numbers::Gap>& gap,
-               const char* what, const std::string& whose) {
-    if (!gap || !recording_.gap.empty()) return;
-    recording_.first_unknown = recorded.time;
-    recording_.gap = gap->first == gap->last
-                         ? fmt::format("{} {}{}", what, gap->first, whose)
-                         : fmt::format("{}s {} to {}{}", what, gap->first, gap->last, whose);
+  void noteGap(const RunTime& begin, const Numbers::Gap& gap, const char* what,
+               const std::string& whose) {
+    const std::string numbers = gap.first == gap.last
+                                    ? fmt::format("{} {}", what, gap.first)
+                                    : fmt::format("{}s {} to {}", what, gap.first, gap.last);
+    recording_.gaps.push_back(
+        {begin, fmt::format("{}{} in episode {}", numbers, whose, begin.episode)});
   }
 
   void sort() {
@@ -198,12 +201,11 @@ class Reader {
 
   std::string path_;
   rosbag::Bag bag_;
-  hovercraft::Scenario scenario_;
   Recording recording_;
-  std::map<std::size_t, SequenceCheck> sequences_;  // of the states, by vehicle
-  std::map<std::size_t, RunTime> last_times_;       // of the states, by vehicle
-  std::map<std::size_t, Numbers> commands_;         // by vehicle
-  Numbers events_;
+  std::map<std::size_t, SequenceCheck> sequences_;                     // of the states, by vehicle
+  std::map<std::size_t, RunTime> last_times_;                          // of the states, by vehicle
+  std::map<std::pair<std::uint32_t, std::size_t>, Numbers> commands_;  // by episode and vehicle
+  std::map<std::uint32_t, Numbers> events_;                            // by episode
 };
 
 }  // namespace

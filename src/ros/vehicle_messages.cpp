@@ -56,15 +56,23 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   state_.angular_momentum = toVector3Message(motion.angular_momentum_W);
   state_.thrust = {engines_.rear.applied, engines_.left.applied, engines_.right.applied};
   state_.energy = motion.energy;
+  enter(place.episode);
   state_.commands = commands_;
   state_.events = place.events;
   state_.hash = simulation.hash(vehicle_);
+}
+
+/// Commands are counted anew in each episode.
+void VehicleMessages::enter(std::uint32_t episode) {
+  if (episode != episode_) commands_ = 0;
+  episode_ = episode;
 }
 
 hovercraft_sim::AppliedCommand VehicleMessages::appliedCommand(const hovercraft::Command& command,
                                                                const RunStamp& place) {
   hovercraft_sim::AppliedCommand message = toMessage(command);
   message.episode = place.episode;
+  enter(place.episode);
   message.number = ++commands_;
   message.header.stamp = place.stamp;
   message.header.frame_id = engines_.header.frame_id;

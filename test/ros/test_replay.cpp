@@ -1,6 +1,8 @@
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -35,6 +37,7 @@ using hovercraft_sim::RunEvent;
 class RecordedRun : public ::testing::Test {
  protected:
   void SetUp() override {
+    recording_.scenario = scenario_;
     recording_.scenario_text = hovercraft::toYaml(scenario_);
     run_.simulation().on_applied = [this](const Command& command) {
       recording_.commands.push_back({now(), command});
@@ -92,9 +95,9 @@ class RecordedRun : public ::testing::Test {
 TEST_F(RecordedRun, IsReplayedToTheLastBit) {
   const ReplayResult result = replay(recording_, scenario_, true);
   EXPECT_FALSE(result.difference);
-  EXPECT_TRUE(result.is_whole);
+  EXPECT_EQ(result.unknown_states, 0U);
   EXPECT_EQ(result.compared_states, recording_.states.size());
-  EXPECT_EQ(result.end.episode, 2U);
+  EXPECT_EQ(recording_.states.back().time.episode, 2U);
 }
 
 TEST_F(RecordedRun, OneChangedBitIsFound) {
@@ -128,25 +131,40 @@ TEST_F(RecordedRun, ALostCommandAndALostEventAreDifferences) {
   EXPECT_THROW(replay(without_reset, scenario_, true), std::invalid_argument);
 }
 
-TEST_F(RecordedRun, NothingIsComparedBeyondWhatIsKnown) {
-  recording_.commands.resize(6);
-  recording_.first_unknown = recording_.states[4].time;
+TEST_F(RecordedRun, NothingIsComparedBetweenAGapAndTheNextEpisode) {
+  std::vector<std::size_t> states(3, 0);  // of each episode
+  for (const auto& recorded : recording_.states) ++states[recorded.time.episode];
+  recording_.commands.erase(recording_.commands.begin() + 6);
+  recording_.gaps = {{recording_.states[4].time, "what was erased"}};
   const ReplayResult result = replay(recording_, scenario_, true);
   EXPECT_FALSE(result.difference);
-  EXPECT_FALSE(result.is_whole);
-  EXPECT_EQ(result.compared_states, 4U);
+  EXPECT_EQ(result.unknown_states, states[0] - 4);
+  EXPECT_EQ(result.compared_states, 4 + states[1] + states[2]);
 }
 
 TEST_F(RecordedRun, AnotherMassParts) {
-  Recording until_load = recording_;  // a snapshot belongs to its scenario
-  until_load.events.pop_back();
-  while (until_load.states.back().time.episode == 2) until_load.states.pop_back();
   Scenario heavier = scenario_;
   heavier.vehicles[1].mass_properties.mass = 2.5;
-  const ReplayResult result = replay(until_load, heavier, true);
+  const ReplayResult result = replay(recording_, heavier, true);
   ASSERT_TRUE(result.difference);
   EXPECT_EQ(result.difference->vehicle, "beta");
   EXPECT_EQ(result.difference->time.tick, 10);
+}
+
+TEST_F(RecordedRun, ALoadGivesAChangedScenarioTheMotionOfTheSnapshot) {
+  Scenario heavier = scenario_;
+  heavier.vehicles[1].mass_properties.mass *= 2.0;
+  heavier.orientation = hovercraft::OrientationKind::kMatrix;
+  hovercraft::Vector3 loaded;
+  ReplayObserver observer;
+  observer.on_event = [&loaded](const RunEvent& event, const hovercraft::Simulation& simulation) {
+    if (event.kind == RunEvent::LOAD) loaded = simulation.motion(1).twist.v_WB;
+  };
+  replay(recording_, heavier, false, observer);
+  hovercraft::Simulation expected(scenario_);
+  applyEvent(recording_.events.back(), expected);
+  EXPECT_LT(hovercraft::norm(loaded - expected.motion(1).twist.v_WB), 1e-15);
+  EXPECT_GT(hovercraft::norm(loaded), 0.1);
 }
 
 /// Which messages get lost on the way into a bag.
@@ -163,12 +181,12 @@ void writeBag(const Recording& recording, const std::vector<std::string>& names,
   std_msgs::String scenario;
   scenario.data = recording.scenario_text;
   bag.write("/hovercraft_sim/scenario", time, scenario);
-  std::vector<std::uint64_t> number(names.size(), 0);
+  std::map<std::pair<std::uint32_t, std::size_t>, std::uint64_t> number;  // by episode and vehicle
   for (std::size_t i = 0; i < recording.commands.size(); ++i) {
     const auto& recorded = recording.commands[i];
     hovercraft_sim::AppliedCommand message = toMessage(recorded.command);
     message.episode = recorded.time.episode;
-    message.number = ++number[recorded.command.vehicle];
+    message.number = ++number[{message.episode, recorded.command.vehicle}];
     if (lost.commands.count(i) > 0) continue;
     bag.write("/" + names[recorded.command.vehicle] + "/commands", time, message);
   }
@@ -200,25 +218,28 @@ TEST_F(RecordedRun, GoesThroughABagAndThroughItsOutput) {
 
 TEST_F(RecordedRun, ALostMessageIsNamedAndGivesNoFalseVerdict) {
   const TestFolder folder;
-  const std::size_t last = recording_.commands.size() - 1;  // of beta: each craft had the half
-  const std::string last_number = std::to_string((last + 1) / 2);
+  const std::size_t last = recording_.commands.size() - 1;
   const struct {
     Lost lost;
     std::string text;
   } cases[] = {
-      {{{8}, {}}, "command 5 of alpha"},
-      {{{3, 5, 7}, {}}, "commands 2 to 4 of beta"},
-      {{{0, 1, 2, 3}, {}}, "commands 1 to 2 of alpha"},  // the recorder came late
-      {{{last}, {}}, "command " + last_number + " of beta"},
-      {{{}, {0}}, "event 1"},
-      {{{}, {1, 2}}, "events 2 to 3"},
-      {{{}, {3}}, "event 4"},  // no later event tells of it
+      {{{8}, {}}, "command 5 of alpha in episode 0 (from tick 30 on)"},
+      {{{3, 5, 7}, {}}, "commands 2 to 4 of beta in episode 0 (from tick 10 on)"},
+      {{{0, 1, 2, 3}, {}}, "commands 1 to 2 of alpha in episode 0 (from tick 10 on)"},  // came late
+      {{{last}, {}}, "command 6 of beta in episode 2 (from tick 120 on)"},
+      {{{}, {0}}, "event 1 in episode 0 (from tick 50 on)"},
+      {{{}, {1}}, "event 1 in episode 1 (from tick 10 on)"},
+      {{{}, {2}}, "event 2 in episode 1 (from tick 30 on)"},
+      {{{}, {3}}, "event 1 in episode 2 (from tick 90 on)"},
+      {{{8}, {2}},
+       "command 5 of alpha in episode 0 (from tick 30 on), event 2 in episode 1 (from tick 30 on)"},
   };
   for (const auto& [lost, text] : cases) {
     writeBag(recording_, {"alpha", "beta"}, folder.file("gap.bag"), lost);
     std::string verdict;
     EXPECT_EQ(replayBag({folder.file("gap.bag"), "", {}}, verdict), 2) << text << ": " << verdict;
-    const std::string end = "what follows cannot be checked: the bag lacks " + text;
+    EXPECT_EQ(verdict.rfind("identical where it can be checked: ", 0), 0U) << verdict;
+    const std::string end = "states cannot: the bag lacks " + text;
     ASSERT_GE(verdict.size(), end.size());
     EXPECT_EQ(verdict.substr(verdict.size() - end.size()), end);
   }
@@ -243,8 +264,6 @@ TEST_F(RecordedRun, TwoRunsInABagAreAnError) {
 
 TEST_F(RecordedRun, ChangesOfTheScenarioAreChecked) {
   const TestFolder folder;
-  recording_.events.resize(1);
-  while (recording_.states.back().time.episode > 0) recording_.states.pop_back();
   const std::string bag = folder.file("run.bag");
   writeBag(recording_, {"alpha", "beta"}, bag);
   std::string verdict;

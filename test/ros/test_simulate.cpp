@@ -268,7 +268,7 @@ TEST_F(Simulate, ARunThatFailsLeavesAPartialBagThatCanBeRead) {
   SimulateRequest request = requestOf(yaml, "time,rear,left,right\n5000,1e308,0,0\n");
   request.duration = "20000";
   request.output = folder_.file("out.bag");
-  EXPECT_THROW(messagesOf(request), std::logic_error);
+  EXPECT_THROW(messagesOf(request), std::runtime_error);
   EXPECT_FALSE(std::filesystem::exists(request.output));
   rosbag::Bag bag(request.output + ".partial");
   rosbag::View states(bag, rosbag::TopicQuery("/craft/state"));

@@ -126,9 +126,12 @@ TEST(VehicleMessages, AnAppliedCommandCarriesStampFrameEpisodeAndNumber) {
   EXPECT_EQ(message.engines, hovercraft_sim::AppliedCommand::LEFT);
   EXPECT_EQ(message.left, 1.0);
   EXPECT_EQ(message.number, 1U);
-  EXPECT_EQ(messages.appliedCommand(command, {kStamp, 5}).number, 2U);
-  messages.fill(simulation, {kStamp, 5});
+  EXPECT_EQ(messages.appliedCommand(command, {kStamp, 4}).number, 2U);
+  messages.fill(simulation, {kStamp, 4});
   EXPECT_EQ(messages.state().commands, 2U);
+  messages.fill(simulation, {kStamp, 5});
+  EXPECT_EQ(messages.state().commands, 0U);
+  EXPECT_EQ(messages.appliedCommand(command, {kStamp, 5}).number, 1U);
 }
 
 TEST(VehicleMessages, EngineFramesLieAtTheEnginesAndPointAlongTheThrust) {

@@ -51,7 +51,7 @@ class BagWriter : public hovercraft::StateSink {
   std::int64_t step_ns_;
   std::int64_t epoch_ns_ = 0;  // of tick 0 of this episode
   std::uint32_t episode_ = 0;
-  std::uint64_t events_ = 0;  // written so far
+  std::uint64_t events_ = 0;  // of that episode
   std::vector<VehicleMessages> vehicles_;
   tf2_msgs::TFMessage transforms_;
 };

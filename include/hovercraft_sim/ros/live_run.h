@@ -38,7 +38,7 @@ class LiveRun {
   hovercraft::Simulation simulation_;
   std::int64_t epoch_ns_;  // of tick 0 of this episode; below 0 after a load of a long run
   std::uint32_t episode_ = 0;
-  std::uint64_t events_ = 0;
+  std::uint64_t events_ = 0;  // of this episode
 };
 
 }  // namespace hovercraft_ros

@@ -35,14 +35,18 @@ struct Recording {
   };
 
   std::string scenario_text;
+  hovercraft::Scenario scenario;  // the same, parsed
   std::vector<RecordedCommand> commands;
   std::vector<hovercraft_sim::RunEvent> events;
   std::vector<RecordedState> states;
 
-  /// The first state that rests on a command or an event that the bag lacks; `gap` says which. The
-  /// end of time if none does.
-  RunTime first_unknown{UINT32_MAX, INT64_MAX};
-  std::string gap;
+  /// From its time on to the end of its episode, states rest on a command or an event that the bag
+  /// lacks; `missing` says which. A reset or a load that is there makes all before it irrelevant.
+  struct Gap {
+    RunTime begin;
+    std::string missing;
+  };
+  std::vector<Gap> gaps;  // one at most of an episode, in their order
   /// States that the bag lacks: they are fewer to compare, no more.
   std::uint64_t missing_states = 0;
 };

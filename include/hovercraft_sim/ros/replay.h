@@ -25,8 +25,8 @@ struct ReplayResult {
   std::uint64_t compared_states = 0;
   hovercraft::Tick simulated_ticks = 0;
   std::uint64_t hash = 0;  // Simulation::hash() at the end
-  RunTime end;             // of what was compared
-  bool is_whole = true;    // false: the recording lacks what its last states rest on
+  /// States that rest on something that the recording lacks (Recording::gaps).
+  std::uint64_t unknown_states = 0;
 };
 
 /// What a replay hands on, each at its time; any may be empty.
@@ -40,7 +40,7 @@ struct ReplayObserver {
 /// Runs again what a recording holds, commands and events at their ticks, and compares every
 /// recorded state bit for bit until the first difference or the first gap.
 /// @param scenario that it runs in; that of the recording, or another one to see what would have
-/// been.
+/// been; a snapshot that was loaded then gives it the motion, not the momenta.
 /// @throws std::invalid_argument if an event does not fit the scenario.
 ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scenario, bool compares,
                     const ReplayObserver& observer = {});

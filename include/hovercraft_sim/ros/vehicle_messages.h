@@ -34,7 +34,7 @@ ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
 struct RunStamp {
   ros::Time stamp;            // the time of the tick
   std::uint32_t episode = 0;  // 0 in a run without resets
-  std::uint64_t events = 0;   // RunEvents so far, of all episodes
+  std::uint64_t events = 0;   // RunEvents of this episode so far
 };
 
 /// Every message about one craft at one tick; the node publishes them, a bag writer writes them.
@@ -64,9 +64,12 @@ class VehicleMessages {
   const hovercraft_sim::State& state() const { return state_; }
 
  private:
+  void enter(std::uint32_t episode);
+
   hovercraft::VehicleScenario description_;
   std::size_t vehicle_;
-  std::uint64_t commands_ = 0;  // that took effect so far
+  std::uint32_t episode_ = 0;
+  std::uint64_t commands_ = 0;  // that took effect in that episode
   geometry_msgs::PoseStamped pose_;
   geometry_msgs::TwistStamped twist_;
   nav_msgs::Odometry odom_;
