@@ -9,6 +9,7 @@ import sys
 import threading
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from hovercraft_sim.msg import State, Telemetry, ThrustCommand
@@ -54,7 +55,7 @@ class Controller:
         self.publisher.publish(command)
 
     def fly(self, delay):
-        """The hashes of the first periods of a new episode, with delay() s of thinking each time."""
+        """The hashes of the first periods of a new episode, with delay() s of thinking each time; None: others command."""
         service('pause', Trigger)()
         episode = service('reset', Reset)().episode
         self.delay = delay
@@ -63,6 +64,11 @@ class Controller:
         wait_until(lambda: (episode, last) in self.hashes, f'tick {last} of episode {episode}')
         self.delay = None
         return [self.hashes[episode, tick] for tick in range(PERIOD_TICKS, last + 1, PERIOD_TICKS)]
+
+
+def thrust_publishers():
+    publishers, _, _ = rosgraph.Master('/lockstep_test').getSystemState()
+    return sum(len(nodes) for topic, nodes in publishers if topic == '/hovercraft/thrust')
 
 
 class LockstepTest(unittest.TestCase):
@@ -79,6 +85,18 @@ class LockstepTest(unittest.TestCase):
             for process in busy:
                 process.kill()
                 process.wait()
+
+    def test_the_example_in_cpp_flies_as_the_one_in_python(self):
+        in_python = CONTROLLER.fly(lambda: 0.0)
+        service('pause', Trigger)()
+        in_cpp = subprocess.Popen(['rosrun', 'hovercraft_sim', 'hold_heading', f'_heading:={HEADING}', f'_speed:={SPEED}'])
+        try:
+            wait_until(lambda: CONTROLLER.publisher.get_num_connections() > 0 and thrust_publishers() == 2,
+                       'the controller in C++')
+            self.assertEqual(CONTROLLER.fly(None), in_python)
+        finally:
+            in_cpp.terminate()
+            in_cpp.wait()
 
     def test_who_is_waited_for_is_named(self):
         named = []
