@@ -7,7 +7,8 @@ namespace {
 std::string folder;
 
 // The controller uses the C library's atan2, whose last bits differ between machines: hence a
-// tolerance, m and rad. heading.bag is `rosbag record /hovercraft/state` of this flight.
+// tolerance, m and rad. heading.bag is what `rosbag record /hovercraft/state` wrote of such a
+// flight, every tenth message of it.
 TEST(HoldsHeading, FliesAsItWasRecorded) {
   hovercraft_ros::Flight flight;
   flight.watch(6.0);

@@ -7,7 +7,7 @@ namespace {
 std::string folder;
 
 // In lockstep commands act at the ticks that the file means. reference.csv is from
-//   simulate craft.yaml --commands commands.csv --every 100 --output reference.csv
+//   simulate craft.yaml --commands commands.csv --hold --every 100 --output reference.csv
 TEST(PlaysCommands, FliesAsTheReference) {
   hovercraft_ros::Flight flight;
   flight.play(folder + "/commands.csv");
