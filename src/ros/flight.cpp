@@ -182,11 +182,11 @@ bool Flight::hasReached(Tick tick) const {
 
 void Flight::flyUntil(const std::string& what, const std::function<bool()>& condition) {
   call("resume");
-  const auto flownSamples = [this] { return trajectories_.front().samples.size(); };
+  const auto flown_samples = [this] { return trajectories_.front().samples.size(); };
   // The deadline is for time that stands still, not for a long flight.
   while (!condition()) {
-    const std::size_t before = flownSamples();
-    waitUntil(what + ": the next state", [&] { return condition() || flownSamples() > before; });
+    const std::size_t before = flown_samples();
+    waitUntil(what + ": the next state", [&] { return condition() || flown_samples() > before; });
   }
   call("pause");
 }

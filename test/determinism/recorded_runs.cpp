@@ -50,7 +50,8 @@ class Pilot {
   std::size_t draw(std::size_t count) { return random_() % count; }
   /// A multiple of 1/64, which every double holds exactly.
   double sixtyFourths(int low, int high) {
-    return (low + static_cast<int>(draw(static_cast<std::size_t>(high - low + 1)))) / 64.0;
+    const auto span = static_cast<std::size_t>(high) - static_cast<std::size_t>(low) + 1;
+    return (low + static_cast<int>(draw(span))) / 64.0;
   }
 
   std::mt19937_64 random_{20261122};
