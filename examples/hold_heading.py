@@ -28,7 +28,8 @@ def main():
     rospy.init_node('hold_heading')
     heading = rospy.get_param('~heading', 0.0)  # rad
     speed = rospy.get_param('~speed', 1.0)      # m/s
-    publisher = rospy.Publisher('hovercraft/thrust', ThrustCommand, queue_size=10, tcp_nodelay=True)
+    # Latched: the simulation waits for the first answer even if it came before its connection.
+    publisher = rospy.Publisher('hovercraft/thrust', ThrustCommand, queue_size=10, tcp_nodelay=True, latch=True)
 
     def answer(odometry):
         command = ThrustCommand()

@@ -17,6 +17,7 @@ import xml.etree.ElementTree as xml
 
 DECLARATION = re.compile(r'^\s*(?:TYPED_TEST_P|TYPED_TEST|TEST_P|TEST_F|TEST)\(\s*(\w+)\s*,\s*(\w+)\s*\)', re.MULTILINE)
 ROSTESTS = pathlib.Path('test/rostest')
+EXAMPLE = pathlib.Path('test/example_package')  # a package of its own: scripts/check_example
 
 
 def plain_name(suite, name):
@@ -76,7 +77,8 @@ def main():
 
     sources = sorted(pathlib.Path('test').rglob('*.cpp')) + sorted(ROSTESTS.glob('*.py'))
     sources = [source for source in sources
-               if arguments.kind in ('all', 'rostest' if ROSTESTS in source.parents else 'gtest')]
+               if EXAMPLE not in source.parents and
+               arguments.kind in ('all', 'rostest' if ROSTESTS in source.parents else 'gtest')]
     declared = {name: source for source in sources for name in tests_of(source)}
     passed, complaints, result_names = read_results(arguments.build / 'test_results')
     mentioned = ' '.join(complaints)

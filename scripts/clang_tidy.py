@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path.cwd()
-FOLDERS = ('src', 'test', 'bench')
+FOLDERS = ('src', 'test', 'bench', 'examples')
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 

@@ -48,9 +48,10 @@ system_family() {
 packages_for() {
   local common
   case "$1" in
-    build) common='g++ make cmake pkg-config libassimp-dev libboost-dev libboost-program-options-dev libeigen3-dev
-      libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
-    test) common='clang libbenchmark-dev libgtest-dev' ;;
+    core) common='g++ make cmake pkg-config libassimp-dev libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
+    clang) common='clang' ;;
+    build) common="$(packages_for core) libboost-program-options-dev" ;;
+    test) common="$(packages_for clang) libbenchmark-dev libgtest-dev" ;;
     lint) common='clang-format clang-tidy catkin-lint' ;;
     demo) common='python3-matplotlib' ;;
     rviz) common='' ;;
@@ -71,11 +72,9 @@ packages_of_debian() {
       python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-std-srvs \
       python3-tf2-msgs python3-visualization-msgs python3-rospy python3-rosservice python3-rosbag python3-roslaunch \
       python3-rostopic rosbash rosout ;;
-    test)
-      echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-tf2-ros
-      # The runtime of clang's sanitizers; before, it was part of what clang depends on.
-      case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac
-      ;;
+    # The runtime of clang's sanitizers; before, it was part of what clang depends on.
+    clang) case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac ;;
+    test) echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-tf2-ros ;;
     rviz) echo rviz ;;
   esac
 }

@@ -43,8 +43,8 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
       if (refusal == nullptr) run_.simulation().push(command);
       return refusal;
     };
-    vehicles_.push_back(
-        std::make_unique<VehicleInterface>(handle, run_, i, config_.world_frame, take));
+    vehicles_.push_back(std::make_unique<VehicleInterface>(handle, run_, i, config_.world_frame,
+                                                           take, config_.lockstep));
     diagnostics_.add(config_.scenario.vehicles[i].name + ": commands",
                      [this, i](diagnostic_updater::DiagnosticStatusWrapper& status) {
                        reportCommands(status, i);

@@ -34,17 +34,17 @@ bool exceedsLimits(const hovercraft::Command& command, const hovercraft::Vehicle
 
 VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun& run,
                                    std::size_t vehicle, const std::string& world_frame,
-                                   CommandSink sink)
+                                   CommandSink sink, bool latched)
     : run_(run),
       vehicle_(vehicle),
       sink_(std::move(sink)),
       messages_(run.simulation().scenario(), vehicle, world_frame) {
   ros::NodeHandle own(handle, messages_.name());
-  pose_ = own.advertise<geometry_msgs::PoseStamped>(kPoseTopic, kStateQueue);
-  twist_ = own.advertise<geometry_msgs::TwistStamped>(kTwistTopic, kStateQueue);
-  odom_ = own.advertise<nav_msgs::Odometry>(kOdomTopic, kStateQueue);
-  engines_ = own.advertise<hovercraft_sim::EngineStatus>(kEnginesTopic, kStateQueue);
-  state_ = own.advertise<hovercraft_sim::State>(kStateTopic, kStateQueue);
+  pose_ = own.advertise<geometry_msgs::PoseStamped>(kPoseTopic, kStateQueue, latched);
+  twist_ = own.advertise<geometry_msgs::TwistStamped>(kTwistTopic, kStateQueue, latched);
+  odom_ = own.advertise<nav_msgs::Odometry>(kOdomTopic, kStateQueue, latched);
+  engines_ = own.advertise<hovercraft_sim::EngineStatus>(kEnginesTopic, kStateQueue, latched);
+  state_ = own.advertise<hovercraft_sim::State>(kStateTopic, kStateQueue, latched);
   commands_ = own.advertise<hovercraft_sim::AppliedCommand>(kCommandsTopic, kCommandQueue);
   subscribe(own);
 }

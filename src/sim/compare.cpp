@@ -114,7 +114,7 @@ std::vector<TrajectoryError> errorsOf(const std::vector<Pair>& pairs) {
     const Pose b = seenFrom(pairs.front().b, pair.b);
     errors.push_back({pair.a.time_ns, norm(pair.b.p_WB - pair.a.p_WB),
                       angleBetween(pair.a.q_WB, pair.b.q_WB), norm(b.p - a.p),
-                      angleBetween(a.q, b.q)});
+                      angleBetween(a.q, b.q), pair.b.p_WB - pair.a.p_WB});
   }
   return errors;
 }
@@ -161,7 +161,8 @@ std::optional<Divergence> firstDifferentBit(const std::vector<Pair>& pairs, bool
          ++column) {
       const double a = columnOf(pair.a, column);
       const double b = columnOf(pair.b, column);
-      if (!haveSameBits(a, b)) return Divergence{pair.a.time_ns, kColumns[column], a, b, true};
+      if (haveSameBits(a, b)) continue;
+      return Divergence{pair.a.time_ns, kColumns[column], a, b, true, pair.b.p_WB - pair.a.p_WB};
     }
   }
   return std::nullopt;
@@ -174,10 +175,12 @@ std::optional<Divergence> firstBeyond(const std::vector<TrajectoryError>& errors
     const double attitude = options.relative ? error.relative_attitude : error.attitude;
     // Written so that an error that is not a number counts as beyond.
     if (options.position_tolerance && !(position <= *options.position_tolerance)) {
-      return Divergence{error.time_ns, "position", position, *options.position_tolerance, false};
+      return Divergence{error.time_ns, "position",    position, *options.position_tolerance,
+                        false,         error.offset_W};
     }
     if (options.attitude_tolerance && !(attitude <= *options.attitude_tolerance)) {
-      return Divergence{error.time_ns, "attitude", attitude, *options.attitude_tolerance, false};
+      return Divergence{error.time_ns, "attitude",    attitude, *options.attitude_tolerance,
+                        false,         error.offset_W};
     }
   }
   return std::nullopt;

@@ -42,8 +42,11 @@ std::string divergenceText(const Divergence& divergence) {
                        timeText(divergence.time_ns), divergence.quantity, divergence.a,
                        divergence.b, divergence.b - divergence.a);
   }
-  return fmt::format("  beyond the tolerance first at {}: {} error {:.4g}, allowed {:g}\n",
-                     timeText(divergence.time_ns), divergence.quantity, divergence.a, divergence.b);
+  return fmt::format(
+      "  beyond the tolerance first at {}: {} error {:.4g}, allowed {:g} (B - A: x "
+      "{:.4g}, y {:.4g}, z {:.4g} m)\n",
+      timeText(divergence.time_ns), divergence.quantity, divergence.a, divergence.b,
+      divergence.offset_W.x(), divergence.offset_W.y(), divergence.offset_W.z());
 }
 
 std::string verdict(const Comparison& comparison, const CompareOptions& options) {

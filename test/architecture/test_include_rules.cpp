@@ -35,9 +35,9 @@ const std::map<std::string, Rule>& rules() {
                                  "hovercraft_sim/", "visualization_msgs/"};
   static const Names of_ros =
       messages +
-      Names{
-          "Eigen/",  "fmt/",     "yaml-cpp/",     "boost/make_shared.hpp", "ros/",
-          "rosbag/", "tf2_ros/", "XmlRpcValue.h", "diagnostic_updater/",   "dynamic_reconfigure/"};
+      Names{"Eigen/",  "fmt/",     "yaml-cpp/",     "boost/make_shared.hpp", "ros/",
+            "rosbag/", "tf2_ros/", "XmlRpcValue.h", "diagnostic_updater/",   "dynamic_reconfigure/",
+            "gtest/"};
   static const std::map<std::string, Rule> table = {
       // boost/multiprecision: exp and sin that are the same on every machine; it needs no library.
       {"math", {{}, {"Eigen/", "boost/multiprecision/"}}},

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """In lockstep the result does not depend on how long a controller takes, nor on the load of the machine."""
 
+import contextlib
 import importlib.util
 import pathlib
 import random
@@ -9,6 +10,7 @@ import sys
 import threading
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from hovercraft_sim.msg import State, Telemetry, ThrustCommand
@@ -54,7 +56,7 @@ class Controller:
         self.publisher.publish(command)
 
     def fly(self, delay):
-        """The hashes of the first periods of a new episode, with delay() s of thinking each time."""
+        """The hashes of the first periods of a new episode, with delay() s of thinking each time; None: others command."""
         service('pause', Trigger)()
         episode = service('reset', Reset)().episode
         self.delay = delay
@@ -63,6 +65,22 @@ class Controller:
         wait_until(lambda: (episode, last) in self.hashes, f'tick {last} of episode {episode}')
         self.delay = None
         return [self.hashes[episode, tick] for tick in range(PERIOD_TICKS, last + 1, PERIOD_TICKS)]
+
+
+def thrust_publishers():
+    publishers, _, _ = rosgraph.Master('/lockstep_test').getSystemState()
+    return sum(len(nodes) for topic, nodes in publishers if topic == '/hovercraft/thrust')
+
+
+@contextlib.contextmanager
+def controller_in_cpp():
+    command = ['rosrun', 'hovercraft_sim', 'hold_heading', f'_heading:={HEADING}', f'_speed:={SPEED}']
+    process = subprocess.Popen(command)
+    try:
+        yield
+    finally:
+        process.terminate()
+        process.wait()
 
 
 class LockstepTest(unittest.TestCase):
@@ -80,7 +98,14 @@ class LockstepTest(unittest.TestCase):
                 process.kill()
                 process.wait()
 
-    def test_who_is_waited_for_is_named(self):
+    def test_the_example_in_cpp_flies_as_the_one_in_python(self):
+        in_python = CONTROLLER.fly(lambda: 0.0)
+        service('pause', Trigger)()
+        with controller_in_cpp():
+            wait_until(lambda: thrust_publishers() == 2, 'the controller in C++')
+            self.assertEqual(CONTROLLER.fly(None), in_python)
+
+    def test_who_is_waited_for_is_named_and_may_come_late(self):
         named = []
         subscriber = rospy.Subscriber('/hovercraft_sim/telemetry', Telemetry,
                                       lambda message: named.append(message.waiting_for))
@@ -89,6 +114,9 @@ class LockstepTest(unittest.TestCase):
         service('resume', Trigger)()
         wait_until(lambda: 'hovercraft' in named, 'telemetry that names the silent vehicle')
         subscriber.unregister()
+        seen = len(CONTROLLER.hashes)
+        with controller_in_cpp():
+            wait_until(lambda: len(CONTROLLER.hashes) > seen + 10, 'states after a controller came')
 
 
 if __name__ == '__main__':

@@ -29,8 +29,10 @@ class VehicleInterface {
       std::function<const char*(const hovercraft::Command&, const std::optional<ros::Time>& stamp)>;
 
   /// @param handle of the namespace that the craft's own namespace lies in.
+  /// @param latched who subscribes late gets the last messages: in lockstep a controller that
+  /// starts after the simulation could not answer them otherwise.
   VehicleInterface(const ros::NodeHandle& handle, const LiveRun& run, std::size_t vehicle,
-                   const std::string& world_frame, CommandSink sink);
+                   const std::string& world_frame, CommandSink sink, bool latched = false);
   VehicleInterface(const VehicleInterface&) = delete;
   VehicleInterface& operator=(const VehicleInterface&) = delete;
 

@@ -37,6 +37,7 @@ struct TrajectoryError {
   double attitude = 0.0;           // rad: angle of the rotation from A to B
   double relative_position = 0.0;  // the same with both seen from their own first pose
   double relative_attitude = 0.0;
+  Vector3 offset_W = Vector3::Zero();  // m: p_B - p_A
 };
 
 /// A course of errors in four numbers, m or rad.
@@ -62,6 +63,7 @@ struct Divergence {
   double a = 0.0;        // of a tolerance: the error; of bits: the number of A
   double b = 0.0;        // of a tolerance: the tolerance; of bits: the number of B
   bool is_bits = false;
+  Vector3 offset_W = Vector3::Zero();  // m, of a tolerance of position: p_B - p_A at that time
 };
 
 struct Comparison {

@@ -1,0 +1,45 @@
+# The ROS-free core: what it needs, how it is compiled, and the target hovercraft_core. The package includes this, and so
+# does test/determinism, which builds the core without ROS; both find Eigen and Boost before.
+
+option(HOVERCRAFT_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+option(HOVERCRAFT_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
+
+find_package(fmt REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(assimp REQUIRED IMPORTED_TARGET assimp)
+# Qhull, reentrant: Ubuntu 20.04 has neither a package configuration nor a .pc file for it.
+find_path(qhull_include_dir libqhull_r/qhull_ra.h REQUIRED)
+find_library(qhull_library qhull_r REQUIRED)
+
+# yaml-cpp 0.8 named its target yaml-cpp::yaml-cpp, earlier ones yaml-cpp.
+set(yaml_cpp_target yaml-cpp)
+if(TARGET yaml-cpp::yaml-cpp)
+  set(yaml_cpp_target yaml-cpp::yaml-cpp)
+endif()
+
+# What the same bits on every machine need (ARCHITECTURE.md, Determinism): no fused multiply-add, no fast-math, no -march. Eigen's
+# matrices start as NaN, so that a number that was never set is seen.
+add_compile_options(-ffp-contract=off)
+add_compile_definitions(EIGEN_INITIALIZE_MATRICES_BY_NAN)
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast)
+if(HOVERCRAFT_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()
+if(HOVERCRAFT_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+
+#catkin_lint: ignore_once external_directory
+include_directories(SYSTEM ${EIGEN3_INCLUDE_DIRS} ${qhull_include_dir})
+
+# Every module up to sim.
+get_filename_component(hovercraft_root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
+set(core_sources)
+foreach(module math geometry body hovercraft collision sim)
+  file(GLOB module_sources CONFIGURE_DEPENDS ${hovercraft_root}/src/${module}/*.cpp)
+  list(APPEND core_sources ${module_sources})
+endforeach()
+add_library(hovercraft_core ${core_sources})
+target_link_libraries(hovercraft_core ${yaml_cpp_target} fmt::fmt PkgConfig::assimp ${qhull_library})

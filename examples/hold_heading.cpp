@@ -1,0 +1,57 @@
+/// Holds a heading in lockstep: for each odometry it answers with one ThrustCommand of the same
+/// stamp. The same controller as hold_heading.py, to the last bit.
+///
+/// usage: roslaunch hovercraft_sim sim.launch lockstep:=true
+///        rosrun hovercraft_sim hold_heading _heading:=1.57 _speed:=1.0
+
+#include <algorithm>
+#include <cmath>
+
+#include <geometry_msgs/Quaternion.h>
+#include <hovercraft_sim/ThrustCommand.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/init.h>
+#include <ros/node_handle.h>
+
+namespace {
+
+double yawOf(const geometry_msgs::Quaternion& q) {
+  return std::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z));
+}
+
+/// N; the left engine turns the bow to the right (PD on yaw, P on forward speed).
+hovercraft_sim::ThrustCommand thrusts(const nav_msgs::Odometry& odometry, double heading,
+                                      double speed) {
+  const double full_turn = 2.0 * std::acos(-1.0);
+  const double error = std::remainder(heading - yawOf(odometry.pose.pose.orientation), full_turn);
+  const double turn = 2.0 * error - 1.5 * odometry.twist.twist.angular.z;  // to the left at the bow
+  const double drive = 3.0 * (speed - odometry.twist.twist.linear.x) + 1.2 * speed;
+  hovercraft_sim::ThrustCommand command;
+  command.rear = std::clamp(drive, 0.0, 4.5);
+  command.left = std::clamp(-turn, 0.0, 1.5);
+  command.right = std::clamp(turn, 0.0, 1.5);
+  return command;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "hold_heading");
+  ros::NodeHandle node;
+  const ros::NodeHandle own("~");
+  const double heading = own.param("heading", 0.0);  // rad
+  const double speed = own.param("speed", 1.0);      // m/s
+  // Latched: the simulation waits for the first answer even if it came before its connection.
+  const ros::Publisher publisher =
+      node.advertise<hovercraft_sim::ThrustCommand>("hovercraft/thrust", 10, true);
+  const boost::function<void(const nav_msgs::Odometry&)> answer =
+      [&](const nav_msgs::Odometry& odometry) {
+        hovercraft_sim::ThrustCommand command = thrusts(odometry, heading, speed);
+        command.header.stamp = odometry.header.stamp;
+        publisher.publish(command);
+      };
+  const ros::Subscriber subscriber = node.subscribe<nav_msgs::Odometry>(
+      "hovercraft/odom", 100, answer, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  ros::spin();
+  return 0;
+}

@@ -1,0 +1,220 @@
+#include "hovercraft_sim/ros/flight.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <std_srvs/Trigger.h>
+#include <stdexcept>
+#include <utility>
+#include <yaml-cpp/yaml.h>
+
+#include <hovercraft_sim/Reset.h>
+#include <hovercraft_sim/ThrustCommand.h>
+#include <ros/callback_queue.h>
+#include <ros/init.h>
+#include <ros/names.h>
+#include <ros/service.h>
+#include <ros/transport_hints.h>
+#include <std_msgs/String.h>
+
+#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/ros/trajectory_file.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/compare.h"
+#include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+namespace hovercraft_ros {
+
+using hovercraft::Tick;
+using hovercraft::Trajectory;
+using hovercraft::TrajectorySample;
+using hovercraft::Vector3;
+
+namespace {
+
+constexpr std::chrono::seconds kDeadline(30);  // of wall time: much more than a start takes
+constexpr double kPoll = 0.01;                 // s, how often a deadline is looked at
+constexpr std::uint32_t kQueue = 10000;  // states; a simulation at full speed must not lose one
+
+/// Handles callbacks until the condition holds. @param patience wall time without a callback.
+void waitUntil(const std::string& what, const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + kDeadline;
+  while (!condition()) {
+    if (!ros::ok()) throw std::runtime_error("ROS was shut down while waiting for " + what);
+    if (std::chrono::steady_clock::now() > deadline) {
+      throw std::runtime_error(fmt::format("waited {} s in vain for {}", kDeadline.count(), what));
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPoll));
+  }
+}
+
+TrajectorySample sampleOf(const hovercraft_sim::State& state, std::int64_t step_ns) {
+  return {static_cast<std::int64_t>(state.tick) * step_ns, fromMessage(state.pose.position),
+          fromMessage(state.pose.orientation), fromMessage(state.velocity),
+          fromMessage(state.angular_velocity)};
+}
+
+Tick ticksOf(double seconds, std::int64_t step_ns, const char* name) {
+  if (!(seconds >= 0.0) || seconds * 1e9 > hovercraft::kMaxNanoseconds) {
+    throw std::invalid_argument(fmt::format("{} = {:g}: must be 0 s or more", name, seconds));
+  }
+  return hovercraft::firstTickAt(std::llround(seconds * 1e9), step_ns);
+}
+
+}  // namespace
+
+Flight::Flight(const std::string& node)
+    : node_(node), handle_(ros::names::parentNamespace(node)), scenario_(receiveScenario()) {
+  connect();
+  call("pause");
+  hovercraft_sim::Reset reset;
+  if (!ros::service::call(node_ + "/reset", reset) || !reset.response.success) {
+    throw std::runtime_error(node_ + "/reset failed: " + reset.response.message);
+  }
+  episode_ = reset.response.episode;
+}
+
+hovercraft::Scenario Flight::receiveScenario() const {
+  ros::NodeHandle handle(handle_);
+  std::string text;
+  const boost::function<void(const std_msgs::String&)> on_scenario =
+      [&text](const std_msgs::String& message) { text = message.data; };
+  const std::string topic = node_ + "/scenario";
+  const ros::Subscriber subscriber = handle.subscribe<std_msgs::String>(topic, 1, on_scenario);
+  waitUntil("a scenario on " + topic, [&text] { return !text.empty(); });
+  return hovercraft::parseScenario(YAML::Load(text), {topic, "", {}});
+}
+
+void Flight::call(const std::string& service) const {
+  std_srvs::Trigger trigger;
+  const std::string name = node_ + "/" + service;
+  if (!ros::service::call(name, trigger) || !trigger.response.success) {
+    throw std::runtime_error(name + " failed: " + trigger.response.message);
+  }
+}
+
+void Flight::connect() {
+  for (std::size_t i = 0; i < scenario_.vehicles.size(); ++i) {
+    const std::string& name = scenario_.vehicles[i].name;
+    ros::NodeHandle own(handle_, name);
+    Trajectory& trajectory = trajectories_.emplace_back();
+    trajectory.vehicle = name;
+    trajectory.source = own.resolveName(kStateTopic) + ", centre of mass";
+    trajectory.holds_time_zero = false;
+    const boost::function<void(const hovercraft_sim::State&)> on_state =
+        [this, i](const hovercraft_sim::State& state) { onState(i, state); };
+    subscribers_.push_back(own.subscribe<hovercraft_sim::State>(
+        kStateTopic, kQueue, on_state, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  }
+  waitUntil("the states of every craft", [this] {
+    return std::all_of(
+        subscribers_.begin(), subscribers_.end(),
+        [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; });
+  });
+}
+
+void Flight::onState(std::size_t vehicle, const hovercraft_sim::State& state) {
+  if (state.episode != episode_) return;
+  auto& samples = trajectories_[vehicle].samples;
+  const TrajectorySample sample = sampleOf(state, scenario_.step_ns);
+  if (!samples.empty() && sample.time_ns <= samples.back().time_ns) return;
+  samples.push_back(sample);
+  if (played_) answer(vehicle, state);
+}
+
+void Flight::answer(std::size_t vehicle, const hovercraft_sim::State& state) {
+  const auto tick = static_cast<Tick>(state.tick);
+  Played& played = *played_;
+  for (; played.next && played.next->tick <= tick; played.next = played.source->next()) {
+    for (int i = 0; i < hovercraft::kEngineCount; ++i) {
+      const auto engine = static_cast<hovercraft::EngineId>(i);
+      if ((played.next->engines & hovercraft::maskOf(engine)) == 0) continue;
+      played.thrusts[played.next->vehicle][i] = played.next->thrusts[i];
+    }
+    played.last = played.next->tick;
+  }
+  hovercraft_sim::ThrustCommand command;
+  command.header.stamp = state.header.stamp;
+  command.rear = played.thrusts[vehicle].x();
+  command.left = played.thrusts[vehicle].y();
+  command.right = played.thrusts[vehicle].z();
+  publishers_[vehicle].publish(command);
+}
+
+void Flight::play(const std::string& commands, double settle) {
+  const Tick after = ticksOf(settle, scenario_.step_ns, "settle");
+  Played played;
+  played.source = openCommands(commands, scenario_);
+  played.next = played.source->next();
+  played.thrusts.assign(scenario_.vehicles.size(), Vector3::Zero());
+  played_ = std::move(played);
+  for (const hovercraft::VehicleScenario& craft : scenario_.vehicles) {
+    ros::NodeHandle own(handle_, craft.name);
+    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kQueue));
+  }
+  waitUntil("somebody who takes the thrusts of every craft", [this] {
+    return std::all_of(publishers_.begin(), publishers_.end(), [](const ros::Publisher& publisher) {
+      return publisher.getNumSubscribers() > 0;
+    });
+  });
+  flyUntil("the end of " + commands,
+           [this, after] { return !played_->next && hasReached(played_->last + after); });
+  played_.reset();
+  publishers_.clear();
+}
+
+void Flight::watch(double duration) {
+  const auto& samples = trajectories_.front().samples;
+  const Tick begin = samples.empty() ? 0 : samples.back().time_ns / scenario_.step_ns;
+  const Tick end = begin + ticksOf(duration, scenario_.step_ns, "duration");
+  flyUntil(fmt::format("{:g} s of flight", duration), [this, end] { return hasReached(end); });
+}
+
+bool Flight::hasReached(Tick tick) const {
+  return std::all_of(trajectories_.begin(), trajectories_.end(), [&](const Trajectory& flown) {
+    return !flown.samples.empty() && flown.samples.back().time_ns >= tick * scenario_.step_ns;
+  });
+}
+
+void Flight::flyUntil(const std::string& what, const std::function<bool()>& condition) {
+  call("resume");
+  const auto flown_samples = [this] { return trajectories_.front().samples.size(); };
+  // The deadline is for time that stands still, not for a long flight.
+  while (!condition()) {
+    const std::size_t before = flown_samples();
+    waitUntil(what + ": the next state", [&] { return condition() || flown_samples() > before; });
+  }
+  call("pause");
+}
+
+FlightVerdict judge(const std::vector<Trajectory>& flown, const std::string& reference,
+                    const FlightTolerance& tolerance) {
+  const std::vector<Trajectory> references = readTrajectories(reference);
+  hovercraft::CompareOptions options;
+  options.position_tolerance = tolerance.position;
+  options.attitude_tolerance = tolerance.attitude;
+  options.matching = hovercraft::SampleMatching::kInterpolated;
+  FlightVerdict verdict{true, ""};
+  for (const hovercraft::TrajectoryPair& pair : pairByVehicle(references, flown)) {
+    const hovercraft::Comparison comparison = compareTrajectories(*pair.a, *pair.b, options);
+    verdict.text += fmt::format("{}, A: reference {}, B: flown\n", pair.b->vehicle, pair.a->source);
+    verdict.text += toText(comparison, options);
+    verdict.follows = verdict.follows && comparison.is_within;
+    const auto end_ns = [](const Trajectory& trajectory) {
+      return trajectory.samples.empty() ? 0 : trajectory.samples.back().time_ns;
+    };
+    if (end_ns(*pair.b) < end_ns(*pair.a)) {
+      verdict.follows = false;
+      verdict.text += fmt::format("  the flight ended at {} s, the reference at {} s\n",
+                                  hovercraft::secondsText(end_ns(*pair.b)),
+                                  hovercraft::secondsText(end_ns(*pair.a)));
+    }
+  }
+  return verdict;
+}
+
+}  // namespace hovercraft_ros
