@@ -91,8 +91,8 @@ class Simulation {
   const SimulationState& state() const { return state_; }
 
   /// Applies the commands that are due and moves every craft from tick n to n + 1.
-  /// @throws std::runtime_error that names the craft if its state is not finite afterwards: the step
-  /// is too long for the forces.
+  /// @throws std::runtime_error that names the craft if its state is not finite afterwards: the
+  /// step is too long for the forces.
   void step();
 
   const Scenario& scenario() const { return scenario_; }
