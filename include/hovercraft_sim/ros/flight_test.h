@@ -8,7 +8,8 @@
 ///     flight.play("commands.csv");
 ///     EXPECT_TRUE(hovercraft_ros::follows(flight, "reference.bag", {0.01, 0.02}));
 ///   }
-///   int main(int argc, char** argv) { return hovercraft_ros::runFlightTests(argc, argv); }
+///
+/// and the main function returns hovercraft_ros::runFlightTests(argc, argv).
 ///
 /// On failure it says which field parted first, when, and by how much.
 
