@@ -79,6 +79,34 @@ constexpr double kCrossingEdges = 1e-4;
 /// Bound on the number of queries in one search for a time of impact. Each step of the search
 /// closes a fixed share of the gap at least; ten to a hundred are usual.
 constexpr int kMaxImpactQueries = 10000;
+
+/// Sine of the angle (-) between a face and the line of the closest points up to which the whole
+/// face counts as in contact: over a metre it hides 1 mm, and the points beyond the band of gaps
+/// are left out one by one.
+constexpr double kFaceAlignment = 1e-3;
+
+/// Speed (-, of the fastest point) below which a point of contact stands still: what the rounding
+/// of an impact leaves, a thousand units in the last place.
+constexpr double kStandingPoint = 1e-13;
+
+/// Change of a velocity (-, of the fastest point) in one sweep at which an impact is solved: a few
+/// units in the last place.
+constexpr double kImpactResidual = 1e-15;
+
+/// Bound on how often a point is relaxed in one round of an impact, all points together: four
+/// points of a face need some hundred each, nearly dependent ones ten thousand.
+constexpr int kMaxImpactRelaxations = 80000;
+
+/// Sweeps (-) that an impact of many points gets in any case.
+constexpr int kMinImpactSweeps = 50;
+
+/// Bound on the rounds of one impact, after which it is plastic. Two points of one body need two or
+/// three.
+constexpr int kMaxImpactRounds = 16;
+
+/// Bound on how often the restitution of a round that gains energy is halved; then it is 0.
+constexpr int kMaxHalvedRestitutions = 8;
+
 /// Distance (N) from its demand below which a lagging thrust has arrived: without a bound it would
 /// end among the denormal numbers, which processors multiply a hundred times slower.
 constexpr double kSettledThrust = 1e-100;
