@@ -172,7 +172,7 @@ int ContactSolver::solve(const Limits& limits) {
       changed = std::max(changed, relax(point));
     }
     ++sweep;
-    if (changed <= limits.tolerance) break;
+    if (changed <= limits.tolerance && sweep >= limits.least_sweeps) break;
   }
   return sweep;
 }

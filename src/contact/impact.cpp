@@ -63,8 +63,9 @@ double ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& po
     solver.add(asked);
   }
   const auto count = static_cast<int>(chosen_.size());
-  solver.solve({std::max(kMinImpactSweeps, kMaxImpactRelaxations / std::max(1, count)),
-                kImpactResidual * scale});
+  const double residual = points.size() < kCrowd ? kImpactResidual : kCrowdResidual;
+  solver.solve({std::max(kMinImpactSweeps, kMaxImpactRelaxations / std::max(1, count)), 1,
+                residual * scale});
   double gained = 0.0;
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     gained += 0.5 * dot(solver.impulse(k), Vector3(before_[k] + solver.velocityAt(k)));
@@ -91,7 +92,8 @@ void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& poin
     return p.material.friction > 0.0 || p.material.stick;
   });
   for (int round = 0; round <= kMaxImpactRounds + 1; ++round) {
-    const double tolerance = kStandingPoint * scaleOf(solver, points);
+    const double standing = points.size() < kCrowd ? kStandingPoint : 10.0 * kCrowdResidual;
+    const double tolerance = standing * scaleOf(solver, points);
     const bool approaching =
         std::any_of(points.begin(), points.end(), [&](const ImpactPoint& point) {
           return dot(point.nhat_AB_W, velocityAt(solver, point)) < -tolerance;

@@ -114,12 +114,19 @@ bool faceManifold(const ConvexPolyhedron& reference, const Pose& X_WR, int face,
     const Vector3 inward = times(X_WR.R_AB, side.inward);
     polygon = clipped(polygon, inward, side.offset + dot(inward, X_WR.p_AB));
   }
+  // Sides that coincide are cut twice.
+  const double same = kSamePoint * (data.radius + other.data().radius);
   std::array<ContactPoint, kMaxCorners> points;
   int count = 0;
   for (int i = 0; i < polygon.count; ++i) {
     const double gap = dot(normal, polygon[i]) - height;
     if (gap > band) continue;
-    points[static_cast<std::size_t>(count++)] = {polygon[i] - (0.5 * gap) * normal, gap};
+    const Vector3 p_WC = polygon[i] - (0.5 * gap) * normal;
+    const auto isSame = [&](const ContactPoint& known) {
+      return squaredNorm(known.p_WC - p_WC) < same * same;
+    };
+    if (std::any_of(points.begin(), points.begin() + count, isSame)) continue;
+    points[static_cast<std::size_t>(count++)] = {p_WC, gap};
   }
   if (count == 0) return false;
   if (count > ContactManifold::kMaxPoints) {

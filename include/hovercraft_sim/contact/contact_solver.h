@@ -40,6 +40,7 @@ class ContactSolver {
  public:
   struct Limits {
     int sweeps = 0;          // at most
+    int least_sweeps = 1;
     double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
   };
 
@@ -60,6 +61,11 @@ class ContactSolver {
   std::size_t pointCount() const { return points_.size(); }
   /// Velocity of B against A at a point, in W, m/s.
   Vector3 velocityAt(std::size_t point) const;
+  /// Where it acts, m, in W.
+  Vector3 positionOf(std::size_t point) const {
+    const Point& at = points_[point];
+    return bodies_[static_cast<std::size_t>(at.a)].p_WB + at.r_a;
+  }
   /// The impulse on B, N s, in W.
   Vector3 impulse(std::size_t point) const;
 
