@@ -162,17 +162,57 @@ double ContactSolver::relax(Point& point) {
   return std::max(changed, relaxTangents(point));
 }
 
-int ContactSolver::solve(const Limits& limits) {
-  const std::size_t count = points_.size();
-  int sweep = 0;
-  while (sweep < limits.sweeps) {
-    double changed = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-      Point& point = points_[sweep % 2 == 0 ? k : count - 1 - k];
-      changed = std::max(changed, relax(point));
+/// Sets every impulse aside, to see afterwards what a sweep did.
+void ContactSolver::keepImpulses() {
+  before_.resize(3 * points_.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) before_[3 * k + i] = points_[k].directions[i].lambda;
+  }
+}
+
+/// The change of the last sweep as a step of the search, and how long it is (J).
+double ContactSolver::lengthOfSweep() const {
+  double length = 0.0;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Direction& along = points_[k].directions[i];
+      if (!(along.mass > 0.0)) continue;
+      const double change = along.lambda - before_[3 * k + i];
+      length += change * change / along.mass;
     }
+  }
+  return length;
+}
+
+/// Goes on by `share` of the last search direction, and makes the next one of both.
+void ContactSolver::goOn(double share) {
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    Point& point = points_[k];
+    for (std::size_t i = 0; i < 3; ++i) {
+      Direction& along = point.directions[i];
+      const double ahead = share * search_[3 * k + i];
+      search_[3 * k + i] = ahead + (along.lambda - before_[3 * k + i]);
+      if (ahead == 0.0 || !(along.mass > 0.0)) continue;
+      along.lambda += ahead;
+      apply(point, along, ahead);
+    }
+  }
+}
+
+int ContactSolver::solve(const Limits& limits) {
+  search_.assign(3 * points_.size(), 0.0);
+  double last_length = 0.0;
+  int sweep = 0;
+  while (true) {
+    keepImpulses();
+    double changed = 0.0;
+    for (Point& point : points_) changed = std::max(changed, relax(point));
     ++sweep;
+    if (sweep >= limits.sweeps) break;
     if (changed <= limits.tolerance && sweep >= limits.least_sweeps) break;
+    const double length = lengthOfSweep();
+    goOn(last_length > 0.0 && length <= last_length ? length / last_length : 0.0);
+    last_length = length;
   }
   return sweep;
 }

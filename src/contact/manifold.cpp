@@ -97,6 +97,16 @@ void reduce(ContactManifold& manifold, const ContactPoint* points, int count) {
   }
 }
 
+/// A corner where the polygon hardly turns: sides that lie along each other, but for a small angle,
+/// cross somewhere in the middle.
+bool isFlatCorner(const Corners& polygon, int i) {
+  if (polygon.count <= 3) return false;
+  const Vector3 in = polygon[i] - polygon[i > 0 ? i - 1 : polygon.count - 1];
+  const Vector3 out = polygon[i + 1 < polygon.count ? i + 1 : 0] - polygon[i];
+  return squaredNorm(cross(in, out)) <
+         kFlatCorner * kFlatCorner * (squaredNorm(in) * squaredNorm(out));
+}
+
 /// Clips the other body's face against a reference face. @param sign +1 if the reference face is
 /// A's, whose normal is that of the manifold, else -1.
 bool faceManifold(const ConvexPolyhedron& reference, const Pose& X_WR, int face,
@@ -114,11 +124,11 @@ bool faceManifold(const ConvexPolyhedron& reference, const Pose& X_WR, int face,
     const Vector3 inward = times(X_WR.R_AB, side.inward);
     polygon = clipped(polygon, inward, side.offset + dot(inward, X_WR.p_AB));
   }
-  // Sides that coincide are cut twice.
   const double same = kSamePoint * (data.radius + other.data().radius);
   std::array<ContactPoint, kMaxCorners> points;
   int count = 0;
   for (int i = 0; i < polygon.count; ++i) {
+    if (isFlatCorner(polygon, i)) continue;
     const double gap = dot(normal, polygon[i]) - height;
     if (gap > band) continue;
     const Vector3 p_WC = polygon[i] - (0.5 * gap) * normal;

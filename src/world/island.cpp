@@ -289,6 +289,7 @@ bool Island::addRestPoints(IslandLink& link, double left) {
     const Twist twist = twistOf(member.state, world_.bodies_[at(member.index)].model.mobility);
     return velocityOfPoint(twist, p_WC, member.pose.p_AB);
   };
+  std::array<bool, ContactManifold::kMaxPoints> used{};
   const Pose& X_WA = poseOfIndex(link.memory.a);
   const double near = 0.05 * world_.hullOf(link.memory.a).data().radius;
   for (int i = 0; i < link.manifold.count; ++i) {
@@ -304,16 +305,25 @@ bool Island::addRestPoints(IslandLink& link, double left) {
     asked.nhat_AB_W = link.manifold.nhat_AB_W;
     asked.p_WC = contact.p_WC;
     const double missing = wanted - contact.gap;
-    asked.target = missing > 0.0 ? kGapRecovery * missing / rules.step : missing / left;
+    // One linear law for all points that touch: else the four of a face would ask for what no
+    // motion of two rigid bodies can give, and the sweeps would creep.
+    asked.target = contact.gap > rules.tolerance ? (rules.tolerance - contact.gap) / left
+                                                 : kGapRecovery * missing / rules.step;
     asked.friction =
         link.material.stick ? std::numeric_limits<double>::infinity() : link.material.friction;
     double closest = near * near;
+    int matched = -1;
     for (int k = 0; k < link.memory.count; ++k) {
+      if (used[static_cast<std::size_t>(k)]) continue;
       const Vector3 p_W = transform(X_WA, link.memory.p_AC[static_cast<std::size_t>(k)]);
       const double away = squaredNorm(p_W - contact.p_WC);
       if (away >= closest) continue;
       closest = away;
-      asked.start = left * link.memory.force_B_W[static_cast<std::size_t>(k)];
+      matched = k;
+    }
+    if (matched >= 0) {
+      used[static_cast<std::size_t>(matched)] = true;
+      asked.start = left * link.memory.force_B_W[static_cast<std::size_t>(matched)];
     }
     s_.solver.add(asked);
     ++link.point_count;

@@ -29,17 +29,22 @@ struct ContactDemand {
   Vector3 start = Vector3::Zero();  // N s, on B: the impulse to begin with
 };
 
-/// Impulses at many points at once, by projected Gauss-Seidel sweeps in the order of the points and
-/// back: at each point
+/// Impulses at many points at once: at each
 ///   0 <= lambda_n,  v_n >= target,  lambda_n (v_n - target) = 0
 ///   |lambda_t| <= mu lambda_n,  v_t = 0 or lambda_t against v_t at the bound
 /// with v the velocity of B against A there, and twist' = twist + M⁻¹ Jᵀ lambda of every body. A
 /// body takes and gives the same impulse at the same point, so that momentum and angular momentum
-/// of a free pair stay. No allocation once it has grown to its working size.
+/// of a free pair stay.
+///
+/// Projected Gauss-Seidel sweeps in the order of the points, between which the search goes on as
+/// conjugate gradients do (Silcowitz, Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate
+/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. The last thing
+/// is always a sweep, whose impulses obey the bounds. No allocation once it has grown to its
+/// working size.
 class ContactSolver {
  public:
   struct Limits {
-    int sweeps = 0;          // at most
+    int sweeps = 0;  // at most
     int least_sweeps = 1;
     double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
   };
@@ -95,12 +100,17 @@ class ContactSolver {
   Direction direction(const Point& point, const Vector3& d) const;
   Vector3 velocity(const Point& point) const;
   void apply(const Point& point, const Direction& direction, double impulse);
+  void keepImpulses();
+  double lengthOfSweep() const;
+  void goOn(double share);
   double relax(Point& point);
   double relaxNormal(Point& point);
   double relaxTangents(Point& point);
 
   std::vector<ContactBody> bodies_;
   std::vector<Point> points_;
+  std::vector<double> before_;  // N s, three for each point
+  std::vector<double> search_;  // N s
 };
 
 }  // namespace hovercraft

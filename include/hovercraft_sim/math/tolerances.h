@@ -87,8 +87,13 @@ constexpr int kMaxImpactQueries = 10000;
 /// are left out one by one.
 constexpr double kFaceAlignment = 1e-3;
 
-/// Distance (-, of the size of the bodies) up to which two points of contact are one.
-constexpr double kSamePoint = 1e-6;
+/// Sine of the turn (-) below which a corner of a common area is none: over half a side of 0.2 m it
+/// hides 0.1 mm.
+constexpr double kFlatCorner = 1e-3;
+
+/// Distance (-, of the size of the bodies) up to which two points of contact are one: sides that
+/// coincide but for a small angle are cut twice near each corner.
+constexpr double kSamePoint = 1e-3;
 
 /// Speed (-, of the fastest point) below which a point of contact stands still: what the rounding
 /// of an impact leaves, a thousand units in the last place.
