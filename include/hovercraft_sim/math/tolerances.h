@@ -117,7 +117,6 @@ constexpr int kMaxImpactRounds = 16;
 /// Bound on how often the restitution of a round that gains energy is halved; then it is 0.
 constexpr int kMaxHalvedRestitutions = 8;
 
-
 /// Gap (-, of the contact tolerance) that resting bodies keep and at which an impact is found: as
 /// far from overlap as from losing touch.
 constexpr double kRestGap = 0.5;

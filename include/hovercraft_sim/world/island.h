@@ -32,6 +32,7 @@ struct IslandMember {
   BodyState state;
   BodyState end;
   Pose pose;
+  Pose end_pose;   // at the end of the piece without contact
   Wrench contact;  // constant force and moment over the piece of a step
   StepMotion motion;
   double travelled = 0.0;  // m
@@ -72,6 +73,7 @@ class Island {
   bool isStruck() const;
   void report(double now);
   void press(double now);
+  double curvature(const IslandLink& link, const Vector3& p_WC) const;
   bool addRestPoints(IslandLink& link, double left);
   void takeForces(double now, double left);
   double advance(double now);
@@ -86,6 +88,7 @@ class Island {
   const std::vector<BodyDrive>& drives_;
   IslandScratch& s_;
   std::vector<ContactRecord>& records_;
+  bool stuck_ = false;    // the last piece had no length
   bool plastic_ = false;  // the bound on bounces is reached
 };
 
