@@ -72,6 +72,12 @@ std::size_t ContactSolver::add(const ContactDemand& asked) {
   point.coupling = (dot(first, second.linear_a) + dot(first, second.linear_b)) +
                    (dot(cross(point.r_a, first), second.angular_a) +
                     dot(cross(point.r_b, first), second.angular_b));
+  const double inverse_s = point.directions[1].mass > 0.0 ? 1.0 / point.directions[1].mass : 0.0;
+  const double inverse_t = second.mass > 0.0 ? 1.0 / second.mass : 0.0;
+  const double spread = 0.5 * (inverse_s - inverse_t);
+  const double largest =
+      0.5 * (inverse_s + inverse_t) + std::sqrt(spread * spread + point.coupling * point.coupling);
+  point.slip_mass = largest > 0.0 ? 1.0 / largest : 0.0;
   for (Direction& along : point.directions) {
     const double start = along.mass > 0.0 ? dot(along.d, asked.start) : 0.0;
     along.lambda = &along == &point.directions[0] ? std::max(0.0, start) : start;
@@ -119,7 +125,9 @@ double ContactSolver::relaxNormal(Point& point) {
   return std::abs(change) / n.mass;
 }
 
-/// Both tangents at once: the impulse that stops the slip, cut to the cone.
+/// Both tangents at once: the impulse that stops the slip, if the cone holds it; else a step
+/// against the slip, projected on the cone, whose fixed point is an impulse at the bound against
+/// the slip.
 double ContactSolver::relaxTangents(Point& point) {
   Direction& s = point.directions[1];
   Direction& t = point.directions[2];
@@ -139,6 +147,10 @@ double ContactSolver::relaxTangents(Point& point) {
   if (!point.bilateral) {
     const double pressed = point.directions[0].lambda;
     const double bound = pressed > 0.0 ? point.friction * pressed : 0.0;
+    if (lambda_s * lambda_s + lambda_t * lambda_t > bound * bound) {
+      lambda_s = s.lambda - point.slip_mass * v_s;
+      lambda_t = t.lambda - point.slip_mass * v_t;
+    }
     const double size = std::sqrt(lambda_s * lambda_s + lambda_t * lambda_t);
     if (size > bound) {
       lambda_s *= bound / size;

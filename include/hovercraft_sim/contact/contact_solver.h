@@ -93,7 +93,8 @@ class ContactSolver {
     double target;
     double friction;
     bool bilateral;
-    double coupling;  // 1/kg: what a unit impulse along the second tangent does along the first
+    double slip_mass;  // kg, the least along any tangent
+    double coupling;   // 1/kg: what a unit impulse along the second tangent does along the first
     Direction directions[3];  // normal and two tangents
   };
 
