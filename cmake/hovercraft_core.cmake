@@ -37,7 +37,7 @@ include_directories(SYSTEM ${EIGEN3_INCLUDE_DIRS} ${qhull_include_dir})
 # Every module up to sim.
 get_filename_component(hovercraft_root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 set(core_sources)
-foreach(module math geometry body hovercraft collision sim)
+foreach(module math geometry body hovercraft collision contact world sim)
   file(GLOB module_sources CONFIGURE_DEPENDS ${hovercraft_root}/src/${module}/*.cpp)
   list(APPEND core_sources ${module_sources})
 endforeach()

@@ -23,10 +23,10 @@ struct Tally {
 /// One step of two bodies that fly at each other and turn.
 void searchOnce(RandomBodies& random, const ConvexPolyhedron& A, const ConvexPolyhedron& B,
                 Tally& tally) {
-  Motion motion_A;
+  StepMotion motion_A;
   motion_A.q_WB = random.orientation();
   motion_A.w_WB = random.uniform(0.0, 1.5) * random.unitVector();
-  Motion motion_B;
+  StepMotion motion_B;
   motion_B.q_WB = random.orientation();
   motion_B.w_WB = random.uniform(0.0, 1.5) * random.unitVector();
   motion_B.p_WB = 3.0 * random.unitVector();

@@ -64,17 +64,17 @@ AxisAlignedBox boxAt(const ConvexPolyhedron& body, const Pose& X_WB) {
 
 }  // namespace
 
-Pose Motion::at(double t) const {
+Pose StepMotion::at(double t) const {
   const Vector3 half = (0.5 * t) * w_WB;
   const Turn half_turn = turn(norm(half));
   const Quaternion turned = Quaternion{half_turn.cosine, half_turn.sine_over_angle * half} * q_WB;
   return {rotationMatrix(normalized(turned)), p_WB + t * (v_WB + (0.5 * t) * a_WB)};
 }
 
-Motion motionBetween(const Vector3& p_start, const Quaternion& q_start, const Vector3& p_end,
-                     const Quaternion& q_end, double duration) {
+StepMotion motionBetween(const Vector3& p_start, const Quaternion& q_start, const Vector3& p_end,
+                         const Quaternion& q_end, double duration) {
   demand(duration > 0.0, "a motion needs a positive duration");
-  Motion motion;
+  StepMotion motion;
   motion.p_WB = p_start;
   motion.q_WB = q_start;
   motion.v_WB = (p_end - p_start) / duration;
@@ -88,7 +88,7 @@ Motion motionBetween(const Vector3& p_start, const Quaternion& q_start, const Ve
   return motion;
 }
 
-AxisAlignedBox sweptBox(const ConvexPolyhedron& body, const Motion& motion, double duration) {
+AxisAlignedBox sweptBox(const ConvexPolyhedron& body, const StepMotion& motion, double duration) {
   const AxisAlignedBox start = boxAt(body, motion.at(0.0));
   const AxisAlignedBox end = boxAt(body, motion.at(duration));
   // |x''| <= |a| + |w|² r; a chord of length T in t is left by at most |x''| T²/8. On long turns

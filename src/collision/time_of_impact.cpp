@@ -24,8 +24,8 @@ double earliestZero(double gap, double speed, double curvature) {
 /// The relative motion of two bodies during a step, with bounds that hold over all of it.
 class RelativeMotion {
  public:
-  RelativeMotion(const ConvexPolyhedron& A, const Motion& motion_A, const ConvexPolyhedron& B,
-                 const Motion& motion_B, double duration)
+  RelativeMotion(const ConvexPolyhedron& A, const StepMotion& motion_A, const ConvexPolyhedron& B,
+                 const StepMotion& motion_B, double duration)
       : motion_A_(motion_A),
         motion_B_(motion_B),
         radius_A_(A.data().radius),
@@ -66,8 +66,8 @@ class RelativeMotion {
            spin_axes * spin_axes * (reach_ + radius);
   }
 
-  const Motion& motion_A_;
-  const Motion& motion_B_;
+  const StepMotion& motion_A_;
+  const StepMotion& motion_B_;
   double radius_A_;
   double radius_B_;
   double acceleration_;
@@ -161,8 +161,8 @@ double RelativeMotion::clearTime(const ClosestFeatures& now, double t) const {
 /// The two bodies as a function of time.
 class Scene {
  public:
-  Scene(const ConvexPolyhedron& A, const Motion& motion_A, const ConvexPolyhedron& B,
-        const Motion& motion_B)
+  Scene(const ConvexPolyhedron& A, const StepMotion& motion_A, const ConvexPolyhedron& B,
+        const StepMotion& motion_B)
       : body_A_(A), motion_A_(motion_A), body_B_(B), motion_B_(motion_B) {}
 
   ClosestFeatures at(double t) {
@@ -173,9 +173,9 @@ class Scene {
 
  private:
   const ConvexPolyhedron& body_A_;
-  const Motion& motion_A_;
+  const StepMotion& motion_A_;
   const ConvexPolyhedron& body_B_;
-  const Motion& motion_B_;
+  const StepMotion& motion_B_;
   FeaturePair pair_;
   int queries_ = 0;
 };
@@ -267,8 +267,8 @@ void check(const ImpactSearch& search) {
 
 }  // namespace
 
-TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const Motion& motion_A,
-                          const ConvexPolyhedron& B, const Motion& motion_B,
+TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
+                          const ConvexPolyhedron& B, const StepMotion& motion_B,
                           const ImpactSearch& search) {
   check(search);
   Scene scene(A, motion_A, B, motion_B);
@@ -285,7 +285,7 @@ TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const Motion& motion_A,
                                                  : bisect(scene, motion, search);
 }
 
-VertexImpact vertexPlaneImpact(const Vector3& p_B, const Motion& motion, const Plane& plane,
+VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion, const Plane& plane,
                                const ImpactSearch& search) {
   check(search);
   const double spin = norm(motion.w_WB);

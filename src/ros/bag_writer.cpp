@@ -17,6 +17,7 @@ namespace {
 
 constexpr const char* kScenarioTopic = "/hovercraft_sim/scenario";  // the node's ~scenario
 constexpr const char* kEventsTopic = "/hovercraft_sim/events";      // the node's ~events
+constexpr const char* kContactsTopic = "/hovercraft_sim/contacts";  // the node's ~contacts
 
 std::invalid_argument writeError(const std::string& path, const rosbag::BagException& error) {
   return std::invalid_argument(fmt::format("{}: cannot be written: {}", path, error.what()));
@@ -36,7 +37,10 @@ boost::shared_ptr<ros::M_string> latchedHeader(const Message& message) {
 }  // namespace
 
 BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenario)
-    : file_(path), bag_(new rosbag::Bag), step_ns_(scenario.step_ns) {
+    : file_(path),
+      bag_(new rosbag::Bag),
+      step_ns_(scenario.step_ns),
+      bodies_(bodyMessages(scenario, kDefaultWorldFrame)) {
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     vehicles_.emplace_back(scenario, vehicle);
   }
@@ -106,6 +110,11 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
     write(topic(messages, kStateTopic), stamp, messages.state());
     transforms_.transforms.push_back(messages.transform());
   }
+  for (BodyMessages& messages : bodies_) {
+    messages.fill(simulation, stamp);
+    write("/" + messages.name() + "/" + kPoseTopic, stamp, messages.pose());
+    transforms_.transforms.push_back(messages.transform());
+  }
   write("/tf", stamp, transforms_);
 }
 
@@ -114,6 +123,11 @@ void BagWriter::applied(const hovercraft::Command& command) {
   const ros::Time stamp = stampOfTick(command.tick);
   write(topic(messages, kCommandsTopic), stamp,
         messages.appliedCommand(command, {stamp, episode_, events_}));
+}
+
+void BagWriter::contact(const hovercraft::ContactEvent& event) {
+  write(kContactsTopic, stampOfTick(event.tick),
+        toMessage(event, epoch_ns_, episode_, kDefaultWorldFrame));
 }
 
 void BagWriter::event(const hovercraft_sim::RunEvent& event,

@@ -16,7 +16,9 @@ namespace {
 
 constexpr std::int64_t kIdleWaitNs = 4000000;   // how soon an idle node looks at its clock again
 constexpr std::int64_t kStepSliceNs = 2000000;  // of stepping between two looks at the callbacks
-constexpr std::uint32_t kEventQueue = 1000;     // every event belongs in a recording
+constexpr std::uint32_t kContactQueue = 10000;  // every contact belongs in a recording
+constexpr std::uint32_t kBodyQueue = 10;
+constexpr std::uint32_t kEventQueue = 1000;  // every event belongs in a recording
 constexpr std::uint32_t kTelemetryQueue = 10;
 
 /// ROS time of tick 0: 0 where this node makes the time, else the wall time of its start.
@@ -53,6 +55,17 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
   run_.simulation().on_applied = [this](const hovercraft::Command& command) {
     vehicles_[command.vehicle]->publishApplied(command);
   };
+  bodies_ = bodyMessages(config_.scenario, config_.world_frame);
+  for (const BodyMessages& body : bodies_) {
+    ros::NodeHandle space(handle, body.name());
+    body_poses_.push_back(space.advertise<geometry_msgs::PoseStamped>(kPoseTopic, kBodyQueue));
+  }
+  if (config_.scenario.world) {
+    contacts_ = own.advertise<hovercraft_sim::Contact>("contacts", kContactQueue);
+    run_.simulation().on_contact = [this](const hovercraft::ContactEvent& event) {
+      contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.world_frame));
+    };
+  }
   scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
   events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
   telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
@@ -162,6 +175,11 @@ void HovercraftNode::publishState() {
   for (const auto& vehicle : vehicles_) {
     vehicle->publish();
     transform_batch_.push_back(vehicle->messages().transform());
+  }
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].fill(run_.simulation(), run_.stamp());
+    body_poses_[i].publish(bodies_[i].pose());
+    transform_batch_.push_back(bodies_[i].transform());
   }
   transforms_.sendTransform(transform_batch_);
   if (clock_) clock_->publishIfDue(run_.stamp(), steadyNow(), false);

@@ -38,10 +38,13 @@ MarkersNode::MarkersNode(const ros::NodeHandle& handle, const ros::NodeHandle& p
 
 void MarkersNode::onScenario(const std_msgs::String& message) {
   craft_.clear();
+  still_.clear();
+  scenario_ = hovercraft::Scenario();
   try {
     const hovercraft::Scenario scenario = hovercraft::parseScenario(
         YAML::Load(message.data), {handle_.resolveName("scenario"), "", {}});
     for (const hovercraft::VehicleScenario& description : scenario.vehicles) watch(description);
+    scenario_ = scenario;
   } catch (const std::exception& error) {
     ROS_ERROR("Nothing is drawn: %s", error.what());
   }
@@ -75,15 +78,26 @@ void MarkersNode::extendPath(Craft& craft, const geometry_msgs::PoseStamped& pos
   craft.path.push_back(here);
 }
 
+/// What has the same marker at all times: obstacles, and the hulls of loose bodies, which tf moves.
+void MarkersNode::makeStill(const std::string& world_frame) {
+  still_ = obstacleMarkers(scenario_, world_frame);
+  if (!scenario_.world) return;
+  for (const hovercraft::VehicleScenario& body : scenario_.world->bodies) {
+    still_.push_back(bodyMarker(body));
+  }
+}
+
 void MarkersNode::publish() {
   if (publisher_.getNumSubscribers() == 0) return;
   visualization_msgs::MarkerArray array;
   for (const auto& craft : craft_) {
     if (craft->world_frame.empty()) continue;  // no pose yet: tf does not know the craft
+    if (still_.empty()) makeStill(craft->world_frame);
     append(array, craftMarkers(craft->description));
     append(array, thrustMarkers(craft->description, craft->engines));
     array.markers.push_back(pathMarker(craft->description, craft->world_frame, craft->path));
   }
+  append(array, still_);
   if (!array.markers.empty()) publisher_.publish(array);
 }
 

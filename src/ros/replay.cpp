@@ -93,6 +93,7 @@ class Replayer {
         observer_(observer) {
     for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) messages_.emplace_back(scenario, i);
     simulation_.on_applied = observer.on_applied;
+    simulation_.on_contact = observer.on_contact;
   }
 
   ReplayResult run(bool compares) {
@@ -284,6 +285,9 @@ int replayBag(const ReplayRequest& request, std::string& verdict) {
   if (!request.output.empty()) {
     writer = std::make_unique<BagWriter>(request.output, scenario);
     observer.on_state = [&writer](const hovercraft::Simulation& state) { writer->state(state); };
+    observer.on_contact = [&writer](const hovercraft::ContactEvent& contact) {
+      writer->contact(contact);
+    };
     observer.on_applied = [&writer](const hovercraft::Command& command) {
       writer->applied(command);
     };

@@ -109,6 +109,23 @@ RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
   return event;
 }
 
+namespace {
+
+void setMotion(const RunEvent& event, hovercraft::Simulation& simulation) {
+  const std::size_t vehicle = vehicleIndex(simulation.scenario(), event.vehicle);
+  const Vector3 p_WB = fromMessage(event.pose.position);
+  const hovercraft::Quaternion q_WB = fromMessage(event.pose.orientation);
+  if (const auto overlap = simulation.overlapAt(vehicle, p_WB, q_WB)) {
+    throw std::invalid_argument(
+        fmt::format("pose: {} and {} would overlap by {:.3g} m: must be apart", overlap->a,
+                    overlap->b, overlap->depth));
+  }
+  simulation.setMotion(vehicle, p_WB, q_WB,
+                       {fromMessage(event.twist.linear), fromMessage(event.twist.angular)});
+}
+
+}  // namespace
+
 void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
   const hovercraft::Scenario& scenario = simulation.scenario();
   switch (event.kind) {
@@ -119,9 +136,7 @@ void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
       simulation.restore(hovercraft::parseSnapshot(event.snapshot, "snapshot", scenario));
       return;
     case RunEvent::SET_STATE:
-      simulation.setMotion(vehicleIndex(scenario, event.vehicle), fromMessage(event.pose.position),
-                           fromMessage(event.pose.orientation),
-                           {fromMessage(event.twist.linear), fromMessage(event.twist.angular)});
+      setMotion(event, simulation);
       return;
     case RunEvent::APPLY_WRENCH: {
       using Frame = hovercraft::ExternalWrench::Frame;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <ros/package.h>
 
@@ -14,6 +15,7 @@
 #include "hovercraft_sim/ros/commands_bag.h"
 #include "hovercraft_sim/ros/progress_bar.h"
 #include "hovercraft_sim/sim/commands_csv.h"
+#include "hovercraft_sim/sim/contacts_csv.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/states_csv.h"
@@ -132,7 +134,10 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
   const std::unique_ptr<hovercraft::CommandSource> commands =
       request.commands.empty() ? std::make_unique<hovercraft::NoCommands>()
                                : openCommands(request.commands, scenario);
-  const auto output = openOutput(request.output, scenario);
+  std::unique_ptr<hovercraft::StateSink> output = openOutput(request.output, scenario);
+  if (!request.contacts.empty()) {
+    output = std::make_unique<hovercraft::ContactsCsvWriter>(request.contacts, std::move(output));
+  }
   hovercraft::Simulation simulation(scenario);
 
   std::optional<ProgressBar> bar;

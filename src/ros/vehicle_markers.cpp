@@ -5,8 +5,10 @@
 #include <cmath>
 #include <variant>
 
+#include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -23,6 +25,8 @@ constexpr Color kBowColor = {0.95F, 0.95F, 0.95F, 1.0F};
 constexpr Color kEngineColor = {0.25F, 0.25F, 0.28F, 1.0F};
 constexpr Color kThrustColor = {1.0F, 0.55F, 0.0F, 0.9F};
 constexpr Color kSaturatedColor = {0.9F, 0.1F, 0.1F, 0.9F};
+constexpr Color kBodyColor = {0.75F, 0.55F, 0.30F, 1.0F};
+constexpr Color kObstacleColor = {0.55F, 0.55F, 0.55F, 0.6F};
 constexpr Color kPathColor = {0.1F, 0.8F, 0.3F, 1.0F};
 
 constexpr double kLeastEdge = 0.02;         // m: a flat plate is still seen
@@ -160,6 +164,46 @@ std::vector<Marker> thrustMarkers(const hovercraft::VehicleScenario& craft,
                     toPointMessage(engine.p_HE + kArrowPerMaximum * share * engine.direction)};
     setScale(arrow, {0.04, 0.09, 0.1});  // m: shaft, head diameter, head length
     markers.push_back(arrow);
+  }
+  return markers;
+}
+
+namespace {
+
+/// The faces of a polyhedron as fans of triangles, shifted.
+void addTriangles(const hovercraft::ConvexPolyhedron& hull, const Vector3& shift, Marker& target) {
+  for (int face = 0; face < hull.faceCount(); ++face) {
+    const auto ring = hull.verticesOf({hovercraft::FeatureKind::kFace, face});
+    for (std::size_t i = 2; i < ring.size(); ++i) {
+      for (const std::int32_t vertex : {ring[0], ring[i - 1], ring[i]}) {
+        target.points.push_back(toPointMessage(hull.vertex(vertex) + shift));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Marker bodyMarker(const hovercraft::VehicleScenario& body) {
+  Marker result = marker(body, "hull", 0, Marker::TRIANGLE_LIST, kBodyColor);
+  setScale(result, Vector3::Ones());
+  addTriangles(hovercraft::hullOf(body), body.mass_properties.p_HB, result);
+  return result;
+}
+
+std::vector<Marker> obstacleMarkers(const hovercraft::Scenario& scenario,
+                                    const std::string& world_frame) {
+  std::vector<Marker> markers;
+  if (!scenario.world) return markers;
+  for (const hovercraft::ObstacleScenario& obstacle : scenario.world->obstacles) {
+    hovercraft::VehicleScenario named;
+    named.name = obstacle.name;
+    Marker result = marker(named, "obstacle", 0, Marker::TRIANGLE_LIST, kObstacleColor);
+    result.header.frame_id = world_frame;
+    setScale(result, Vector3::Ones());
+    addTriangles(hovercraft::convexHull(hovercraft::hullPoints(obstacle.hull), obstacle.name),
+                 Vector3::Zero(), result);
+    markers.push_back(result);
   }
   return markers;
 }

@@ -66,6 +66,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
   demand(plan.every > 0, "a run puts out every n-th tick, n > 0");
   TimeoutWatch watch(simulation);
   simulation.on_applied = [&sink](const Command& command) { sink.applied(command); };
+  simulation.on_contact = [&sink](const ContactEvent& event) { sink.contact(event); };
   std::optional<Command> waiting = commands.next();
   Tick next_output = simulation.tick();
   while (true) {
@@ -81,6 +82,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
     if (plan.on_progress && tick % kProgressInterval == 0) plan.on_progress(tick);
   }
   simulation.on_applied = nullptr;
+  simulation.on_contact = nullptr;
   sink.close();
   return {watch.found(), simulation.hash()};
 }

@@ -12,6 +12,7 @@
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_names.h"
+#include "hovercraft_sim/sim/world_parser.h"
 
 namespace hovercraft {
 namespace {
@@ -42,6 +43,8 @@ Matrix3 parseInertia(const ConfigReader& vehicle) {
   return inertia;
 }
 
+}  // namespace
+
 std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
   std::string file = reader.text("file");
   const std::string scheme = "package://";
@@ -59,6 +62,8 @@ std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
   }
   return (std::filesystem::path(source.directory) / file).lexically_normal().string();
 }
+
+namespace {
 
 struct ParsedPart {
   // A constructor, not an aggregate: GCC 12 destroys the first member twice if the second one's
@@ -205,30 +210,41 @@ void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& 
   }
 }
 
-VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
-                             const ScenarioSource& source, BodyModel model) {
+void parseDrag(const ConfigReader& drag, Drag& result) {
+  drag.allowOnly({"linear", "quadratic", "angular_linear", "angular_quadratic"});
+  result.linear = drag.vectorOr(Vector3::Zero(), "linear", kNotNegative);
+  result.quadratic = drag.vectorOr(Vector3::Zero(), "quadratic", kNotNegative);
+  result.angular_linear = drag.vectorOr(Vector3::Zero(), "angular_linear", kNotNegative);
+  result.angular_quadratic = drag.vectorOr(Vector3::Zero(), "angular_quadratic", kNotNegative);
+}
+
+}  // namespace
+
+VehicleScenario parseMovingBody(const std::string& name, const ConfigReader& reader,
+                                const ScenarioSource& source, BodyModel model) {
   if (!isGraphName(name)) {
     reader.fail("", "the name of a vehicle is a ROS name: a letter, then letters, digits and _");
   }
-  reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "initial"});
   VehicleScenario vehicle;
   vehicle.name = name;
   parseMass(reader, source, vehicle);
+  if (reader.has("drag")) parseDrag(reader.map("drag"), vehicle.drag);
+  if (reader.has("initial")) parseInitial(reader.map("initial"), model, vehicle);
+  return vehicle;
+}
+
+namespace {
+
+VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
+                             const ScenarioSource& source, BodyModel model) {
+  reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "hull",
+                    "material", "initial"});
+  VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   const ConfigReader engines = reader.map("engines");
   engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     vehicle.engines[i] = parseEngine(engines.map(kEngineNames[i]));
   }
-  if (reader.has("drag")) {
-    const ConfigReader drag = reader.map("drag");
-    drag.allowOnly({"linear", "quadratic", "angular_linear", "angular_quadratic"});
-    vehicle.drag.linear = drag.vectorOr(Vector3::Zero(), "linear", kNotNegative);
-    vehicle.drag.quadratic = drag.vectorOr(Vector3::Zero(), "quadratic", kNotNegative);
-    vehicle.drag.angular_linear = drag.vectorOr(Vector3::Zero(), "angular_linear", kNotNegative);
-    vehicle.drag.angular_quadratic =
-        drag.vectorOr(Vector3::Zero(), "angular_quadratic", kNotNegative);
-  }
-  if (reader.has("initial")) parseInitial(reader.map("initial"), model, vehicle);
   return vehicle;
 }
 
@@ -236,8 +252,8 @@ VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader
 
 Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
   const ConfigReader reader(tree, source.name);
-  reader.allowOnly(
-      {"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed", "vehicles"});
+  reader.allowOnly({"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed",
+                    "vehicles", "world"});
   Scenario scenario;
   scenario.step_ns = nanoseconds(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
@@ -253,6 +269,7 @@ Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
     scenario.vehicles.push_back(parseVehicle(name, vehicle, source, scenario.model));
   }
   if (scenario.vehicles.empty()) reader.fail("vehicles", "must name at least one vehicle");
+  parseWorld(reader, source, scenario);
   return scenario;
 }
 

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <sstream>
 #include <string>
 #include <variant>
 
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/world_parser.h"
 
 namespace hovercraft {
 namespace {
@@ -58,8 +60,8 @@ std::string massText(const VehicleScenario& vehicle) {
   return parts;
 }
 
-std::string vehicleText(const VehicleScenario& vehicle) {
-  std::string yaml = fmt::format("  {}:\n{}    engines:\n", vehicle.name, massText(vehicle));
+std::string engineText(const VehicleScenario& vehicle) {
+  std::string yaml = "    engines:\n";
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     const EngineParameters& engine = vehicle.engines[i];
     yaml += fmt::format(
@@ -68,6 +70,15 @@ std::string vehicleText(const VehicleScenario& vehicle) {
         kEngineNames[i], text(engine.p_HE), text(engine.direction), engine.min_thrust,
         engine.max_thrust, engine.time_constant, toSeconds(engine.timeout_ns));
   }
+  return yaml;
+}
+
+/// A craft, or a loose body, which has no engines to write.
+std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario,
+                        bool has_engines) {
+  std::string yaml = fmt::format("  {}:\n{}", vehicle.name, massText(vehicle));
+  if (has_engines) yaml += engineText(vehicle);
+  yaml += surfaceYaml(vehicle, scenario);
   yaml += fmt::format(
       "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}}}\n",
       text(vehicle.drag.linear), text(vehicle.drag.quadratic), text(vehicle.drag.angular_linear),
@@ -89,7 +100,16 @@ std::string toYaml(const Scenario& scenario) {
       kOrientationNames[static_cast<std::size_t>(scenario.orientation)],
       kModelNames[static_cast<std::size_t>(scenario.model)], text(scenario.gravity),
       text(scenario.wind), scenario.seed);
-  for (const VehicleScenario& vehicle : scenario.vehicles) yaml += vehicleText(vehicle);
+  for (const VehicleScenario& vehicle : scenario.vehicles) {
+    yaml += vehicleText(vehicle, scenario, true);
+  }
+  yaml += worldYaml(scenario);
+  if (!scenario.world || scenario.world->bodies.empty()) return yaml;
+  yaml += "  bodies:\n";
+  for (const VehicleScenario& body : scenario.world->bodies) {
+    std::istringstream lines(vehicleText(body, scenario, false));
+    for (std::string line; std::getline(lines, line);) yaml += "  " + line + "\n";
+  }
   return yaml;
 }
 

@@ -10,28 +10,10 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/state_hash.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft {
 namespace {
-
-HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle) {
-  const MassProperties& body = vehicle.mass_properties;
-  const Mobility mobility = scenario.model == BodyModel::kPlanar
-                                ? Mobility::planar(body.mass, body.I_BBo_B)
-                                : Mobility::spatial(body.mass, body.I_BBo_B);
-  return {mobility, EngineGeometry(vehicle.engines, body.p_HB), vehicle.drag,
-          body.mass * scenario.gravity, scenario.wind};
-}
-
-BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
-                       const Mobility& mobility) {
-  const Twist twist = {vehicle.initial_v_WB, vehicle.initial_w_WB};
-  if (scenario.orientation == OrientationKind::kQuaternion) {
-    return mobility.stateOfMotion(vehicle.initial_p_WB, quaternionFromRpy(vehicle.initial_rpy),
-                                  twist);
-  }
-  return mobility.stateOfMotion(vehicle.initial_p_WB, rotationFromRpy(vehicle.initial_rpy), twist);
-}
 
 bool isRotation(const Quaternion& q_WB) {
   // Components beyond 1e154 have an infinite norm, and end as 0 when they are divided by it.
@@ -61,11 +43,16 @@ bool sumWrenches(const std::vector<ExternalWrench>& wrenches, std::size_t vehicl
   return any;
 }
 
-/// Ends what drag left of a momentum before it becomes a denormal number.
-void settle(Vector3& momentum) {
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(momentum(i)) < kSettledMomentum) momentum(i) = 0.0;
+/// Ends what drag left of the momenta before it becomes denormal numbers.
+/// @returns false if the state is not finite.
+template <class Orientation>
+bool settle(RigidBodyState<Orientation>& body) {
+  for (Vector3* momentum : {&body.momentum_W, &body.angular_momentum_W}) {
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs((*momentum)(i)) < kSettledMomentum) (*momentum)(i) = 0.0;
+    }
   }
+  return isSound(body);
 }
 
 }  // namespace
@@ -75,6 +62,10 @@ Simulation::Simulation(Scenario scenario)
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     models_.push_back(modelOf(scenario_, vehicle));
     engine_dynamics_.emplace_back(vehicle.engines, scenario_.step_ns);
+  }
+  if (scenario_.world) {
+    world_.emplace(worldOf(scenario_));
+    drives_.resize(world_->bodies().size());
   }
   reset(scenario_.seed);
 }
@@ -86,24 +77,68 @@ void Simulation::reset(std::int64_t seed) {
     state_.vehicles.push_back(
         {initialState(scenario_, scenario_.vehicles[i], models_[i].mobility), {}});
   }
+  if (world_) {
+    for (std::size_t i = 0; i < scenario_.world->bodies.size(); ++i) {
+      const Mobility& mobility = world_->bodies()[models_.size() + i].model.mobility;
+      state_.bodies.push_back(initialState(scenario_, scenario_.world->bodies[i], mobility));
+    }
+    partTouching(-1);
+  }
   commands_ = CommandLog();
 }
 
 void Simulation::restore(const SimulationState& state) {
-  demand(state.vehicles.size() == models_.size(), "a state must come from the same scenario");
+  demand(state.vehicles.size() == models_.size() &&
+             state.bodies.size() == (world_ ? scenario_.world->bodies.size() : 0),
+         "a state must come from the same scenario");
   state_ = state;
   commands_ = CommandLog();
 }
 
 void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                            const Twist& twist) {
-  const Mobility& mobility = models_.at(vehicle).mobility;
-  BodyState& body = state_.vehicles[vehicle].body;
+  state_.vehicles.at(vehicle).body = placed(p_WB, q_WB, twist, models_[vehicle].mobility);
+  if (!world_) return;
+  const auto index = static_cast<std::int32_t>(vehicle);
+  auto& contacts = state_.contacts;
+  contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                [index](const ContactMemory& contact) {
+                                  return contact.a == index || contact.b == index;
+                                }),
+                 contacts.end());
+  partTouching(index);
+}
+
+BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
+                             const Mobility& mobility) const {
   if (scenario_.orientation == OrientationKind::kQuaternion) {
-    body = mobility.stateOfMotion(p_WB, renormalized(q_WB), twist);
-  } else {
-    body = mobility.stateOfMotion(p_WB, renormalized(rotationMatrix(q_WB)), twist);
+    return mobility.stateOfMotion(p_WB, renormalized(q_WB), twist);
   }
+  return mobility.stateOfMotion(p_WB, renormalized(rotationMatrix(q_WB)), twist);
+}
+
+std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vector3& p_WB,
+                                                  const Quaternion& q_WB) const {
+  if (!world_) return std::nullopt;
+  std::vector<BodyState> states = worldStates();
+  states.at(vehicle) = placed(p_WB, q_WB, Twist(), models_[vehicle].mobility);
+  return world_->overlap(states, static_cast<int>(vehicle));
+}
+
+std::vector<BodyState> Simulation::worldStates() const {
+  std::vector<BodyState> states;
+  for (const VehicleState& vehicle : state_.vehicles) states.push_back(vehicle.body);
+  states.insert(states.end(), state_.bodies.begin(), state_.bodies.end());
+  return states;
+}
+
+/// Sets bodies that were put where they touch apart by half the tolerance. @param body -1: all.
+void Simulation::partTouching(int body) {
+  std::vector<BodyState> states = worldStates();
+  world_->partTouching(states, body);
+  const std::size_t count = state_.vehicles.size();
+  for (std::size_t i = 0; i < count; ++i) state_.vehicles[i].body = states[i];
+  for (std::size_t i = count; i < states.size(); ++i) state_.bodies[i - count] = states[i];
 }
 
 void Simulation::applyWrench(const ExternalWrench& wrench) {
@@ -149,9 +184,7 @@ void Simulation::stepVehicle(std::size_t vehicle) {
   std::visit(
       [&](auto& body) {
         body = integrationStep(scenario_.integrator, body, system, h_);
-        settle(body.momentum_W);
-        settle(body.angular_momentum_W);
-        if (!isSound(body)) failAsDiverged(vehicle);
+        if (!settle(body)) failAsDiverged("vehicles", scenario_.vehicles[vehicle].name);
       },
       state.body);
   for (int i = 0; i < kEngineCount; ++i) {
@@ -159,22 +192,77 @@ void Simulation::stepVehicle(std::size_t vehicle) {
   }
 }
 
-void Simulation::failAsDiverged(std::size_t vehicle) const {
+void Simulation::failAsDiverged(const char* kind, const std::string& name) const {
   throw std::runtime_error(fmt::format(
-      "vehicles.{}: the motion diverges (it is not finite after tick {}): step_size = {} s is too "
+      "{}.{}: the motion diverges (it is not finite after tick {}): step_size = {} s is too "
       "long for these forces",
-      scenario_.vehicles[vehicle].name, state_.tick, h_));
+      kind, name, state_.tick, h_));
 }
 
 void Simulation::step() {
   applyDueCommands();
   endWrenches();
-  for (std::size_t vehicle = 0; vehicle < state_.vehicles.size(); ++vehicle) stepVehicle(vehicle);
+  if (world_) {
+    stepWorld();
+  } else {
+    for (std::size_t vehicle = 0; vehicle < state_.vehicles.size(); ++vehicle) stepVehicle(vehicle);
+  }
   ++state_.tick;
+  if (world_ && on_contact) report();
 }
 
-Motion Simulation::motion(std::size_t vehicle) const {
-  const HovercraftModel& model = models_[vehicle];
+void Simulation::stepWorld() {
+  const std::size_t count = state_.vehicles.size();
+  moving_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    BodyDrive& drive = drives_[i];
+    drive.thrusts = engine_dynamics_[i].course(state_.vehicles[i].engines, state_.tick);
+    drive.load = ExternalLoad();
+    drive.is_pushed = sumWrenches(state_.wrenches, i, drive.load);
+    moving_.push_back(state_.vehicles[i].body);
+  }
+  moving_.insert(moving_.end(), state_.bodies.begin(), state_.bodies.end());
+  records_.clear();
+  world_->step(drives_, moving_, state_.contacts, records_);
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    if (!std::visit([](auto& body) { return settle(body); }, moving_[i])) {
+      failAsDiverged(i < count ? "vehicles" : "world.bodies", world_->nameOf(static_cast<int>(i)));
+    }
+    if (i >= count) {
+      state_.bodies[i - count] = moving_[i];
+      continue;
+    }
+    state_.vehicles[i].body = moving_[i];
+    for (int k = 0; k < kEngineCount; ++k) {
+      state_.vehicles[i].engines[static_cast<std::size_t>(k)].thrust = drives_[i].thrusts.end[k];
+    }
+  }
+}
+
+/// Hands out what happened in the step that just ended.
+void Simulation::report() {
+  std::stable_sort(records_.begin(), records_.end(),
+                   [](const ContactRecord& x, const ContactRecord& y) { return x.time < y.time; });
+  const std::int64_t begin_ns = (state_.tick - 1) * scenario_.step_ns;
+  for (const ContactRecord& record : records_) {
+    ContactEvent event;
+    event.kind = record.kind;
+    event.time_ns =
+        begin_ns + std::llround(record.time * static_cast<double>(kNanosecondsPerSecond));
+    event.time = toSeconds(begin_ns) + record.time;
+    event.tick = state_.tick;
+    event.a = world_->nameOf(record.a);
+    event.b = world_->nameOf(record.b);
+    event.p_WC = record.p_WC;
+    event.nhat_AB_W = record.nhat_AB_W;
+    event.impulse_B_W = record.impulse_B_W;
+    on_contact(event);
+  }
+}
+
+namespace {
+
+Motion motionOf(const HovercraftModel& model, const BodyState& state) {
   return std::visit(
       [&](const auto& body) -> Motion {
         const double potential = -dot(model.weight_W, body.p_WB);
@@ -185,7 +273,17 @@ Motion Simulation::motion(std::size_t vehicle) const {
                 body.angular_momentum_W,
                 kineticEnergy(body, model.mobility) + potential};
       },
-      state_.vehicles[vehicle].body);
+      state);
+}
+
+}  // namespace
+
+Motion Simulation::motion(std::size_t vehicle) const {
+  return motionOf(models_[vehicle], state_.vehicles[vehicle].body);
+}
+
+Motion Simulation::bodyMotion(std::size_t body) const {
+  return motionOf(world_->bodies()[models_.size() + body].model, state_.bodies[body]);
 }
 
 EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {
@@ -211,6 +309,8 @@ std::uint64_t Simulation::hash() const {
   hash.add(state_.tick);
   for (const VehicleState& state : state_.vehicles) hash.add(state);
   for (const ExternalWrench& wrench : state_.wrenches) hash.add(wrench);
+  for (const BodyState& body : state_.bodies) hash.add(body);
+  for (const ContactMemory& contact : state_.contacts) hash.add(contact);
   return hash.value();
 }
 

@@ -47,15 +47,18 @@ RigidBodyState<Orientation> parseBody(const ConfigReader& body, const Orientatio
           body.vector("angular_momentum")};
 }
 
-std::string vehicleText(const std::string& name, const VehicleState& state) {
-  std::string yaml = fmt::format("  {}:\n", name);
-  yaml += std::visit(
+std::string bodyText(const BodyState& state) {
+  return std::visit(
       [](const auto& body) {
-        return fmt::format("    body: {{position: {}, {}, momentum: {}, angular_momentum: {}}}\n",
+        return fmt::format("{{position: {}, {}, momentum: {}, angular_momentum: {}}}\n",
                            text(body.p_WB), orientationText(body.orientation),
                            text(body.momentum_W), text(body.angular_momentum_W));
       },
-      state.body);
+      state);
+}
+
+std::string vehicleText(const std::string& name, const VehicleState& state) {
+  std::string yaml = fmt::format("  {}:\n    body: {}", name, bodyText(state.body));
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     const EngineState& engine = state.engines[i];
     yaml += fmt::format("    {}: {{commanded: {:.17g}, thrust: {:.17g}, command_tick: {}}}\n",
@@ -71,15 +74,54 @@ std::string wrenchText(const Scenario& scenario, const ExternalWrench& external)
                      text(external.wrench.force), text(external.wrench.torque), external.end_tick);
 }
 
+/// A contact by the indices of its bodies and features: these are of the same scenario.
+std::string contactText(const ContactMemory& contact) {
+  const FeaturePair& f = contact.features;
+  std::string yaml = fmt::format(
+      "  - {{a: {}, b: {}, kind_a: {}, index_a: {}, kind_b: {}, index_b: {}, hint_a: {}, hint_b: "
+      "{}, resting: {}",
+      contact.a, contact.b, static_cast<int>(f.a.kind), f.a.index, static_cast<int>(f.b.kind),
+      f.b.index, f.hints[0], f.hints[1], contact.resting ? "true" : "false");
+  if (contact.count > 0) yaml += ", points: [";
+  for (int i = 0; i < contact.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    yaml += fmt::format("{}{{p: {}, force: {}}}", i > 0 ? ", " : "", text(contact.p_AC[k]),
+                        text(contact.force_B_W[k]));
+  }
+  return yaml + (contact.count > 0 ? "]}\n" : "}\n");
+}
+
+ContactMemory parseContact(const ConfigReader& reader) {
+  const auto whole = [&reader](const char* key) {
+    return static_cast<std::int32_t>(reader.wholeNumberOr(0, key));
+  };
+  ContactMemory contact;
+  contact.a = whole("a");
+  contact.b = whole("b");
+  contact.features = {true,
+                      {static_cast<FeatureKind>(whole("kind_a")), whole("index_a")},
+                      {static_cast<FeatureKind>(whole("kind_b")), whole("index_b")},
+                      {whole("hint_a"), whole("hint_b")}};
+  contact.resting = reader.flagOr(false, "resting");
+  if (!reader.has("points")) return contact;
+  for (const ConfigReader& point : reader.list("points")) {
+    if (contact.count == ContactManifold::kMaxPoints) reader.fail("points", "must be at most 8");
+    const auto k = static_cast<std::size_t>(contact.count++);
+    contact.p_AC[k] = point.vector("p");
+    contact.force_B_W[k] = point.vector("force");
+  }
+  return contact;
+}
+
+BodyState parseBodyState(const ConfigReader& body, OrientationKind kind) {
+  if (kind == OrientationKind::kQuaternion) return parseBody(body, parseQuaternion(body));
+  return parseBody(body, parseMatrix(body));
+}
+
 VehicleState parseVehicle(const ConfigReader& reader, OrientationKind kind) {
   reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
-  const ConfigReader body = reader.map("body");
   VehicleState state;
-  if (kind == OrientationKind::kQuaternion) {
-    state.body = parseBody(body, parseQuaternion(body));
-  } else {
-    state.body = parseBody(body, parseMatrix(body));
-  }
+  state.body = parseBodyState(reader.map("body"), kind);
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     const ConfigReader engine = reader.map(kEngineNames[i]);
     engine.allowOnly({"commanded", "thrust", "command_tick"});
@@ -113,6 +155,12 @@ std::string toSnapshot(const Simulation& simulation) {
   }
   if (!state.wrenches.empty()) yaml += "wrenches:\n";
   for (const ExternalWrench& external : state.wrenches) yaml += wrenchText(scenario, external);
+  if (!state.bodies.empty()) yaml += "bodies:\n";
+  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
+    yaml += fmt::format("  {}: {}", scenario.world->bodies[i].name, bodyText(state.bodies[i]));
+  }
+  if (!state.contacts.empty()) yaml += "contacts:\n";
+  for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
   yaml += "scenario: |\n";
   std::istringstream lines(toYaml(scenario));
   for (std::string line; std::getline(lines, line);) yaml += "  " + line + "\n";
@@ -128,7 +176,8 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
     throw std::invalid_argument(fmt::format("{}: not YAML: {}", source, error.what()));
   }
   const ConfigReader reader(tree, source);
-  reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "scenario"});
+  reader.allowOnly(
+      {"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts", "scenario"});
   if (reader.text("scenario") != toYaml(scenario)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }
@@ -143,6 +192,17 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
   if (reader.has("wrenches")) {
     for (const ConfigReader& wrench : reader.list("wrenches")) {
       state.wrenches.push_back(parseWrench(wrench, scenario));
+    }
+  }
+  if (scenario.world && !scenario.world->bodies.empty()) {
+    const ConfigReader bodies = reader.map("bodies");
+    for (const VehicleScenario& body : scenario.world->bodies) {
+      state.bodies.push_back(parseBodyState(bodies.map(body.name), scenario.orientation));
+    }
+  }
+  if (reader.has("contacts")) {
+    for (const ConfigReader& contact : reader.list("contacts")) {
+      state.contacts.push_back(parseContact(contact));
     }
   }
   Simulation check(scenario);

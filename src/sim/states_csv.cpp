@@ -27,9 +27,15 @@ void append(fmt::memory_buffer& buffer, const Vector3& v) {
 }  // namespace
 
 StatesCsvWriter::StatesCsvWriter(const std::string& path, const Scenario& scenario) : file_(path) {
-  const bool is_single = scenario.vehicles.size() == 1;
+  const bool is_single =
+      scenario.vehicles.size() == 1 && (!scenario.world || scenario.world->bodies.empty());
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     vehicle_columns_.push_back(is_single ? "" : "," + vehicle.name);
+  }
+  if (scenario.world) {
+    for (const VehicleScenario& body : scenario.world->bodies) {
+      body_columns_.push_back("," + body.name);
+    }
   }
   append(buffer_, fmt::format("time,{}{}\n", is_single ? "" : "vehicle,", kMotionColumns));
 }
@@ -39,6 +45,11 @@ void StatesCsvWriter::state(const Simulation& simulation) {
     appendSeconds(buffer_, simulation.timeNs());
     append(buffer_, vehicle_columns_[vehicle]);
     appendRow(simulation.motion(vehicle));
+  }
+  for (std::size_t body = 0; body < body_columns_.size(); ++body) {
+    appendSeconds(buffer_, simulation.timeNs());
+    append(buffer_, body_columns_[body]);
+    appendRow(simulation.bodyMotion(body));
   }
   if (buffer_.size() >= kFlushSize) flush();
 }

@@ -18,6 +18,7 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
       "simulated seconds; default: to 1 s after the last command");
   add("output,o", po::value(&request.output)->required(),
       "states (.csv or .bag); - is CSV on the standard output");
+  add("contacts", po::value(&request.contacts), "contacts (.csv): bounces, sticks, rests");
   add("every,e", po::value(&request.every)->default_value(request.every),
       "put out every N-th tick");
   add("hold", po::bool_switch(&request.hold), "commands hold for ever: no engine times out");

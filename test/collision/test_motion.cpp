@@ -8,11 +8,11 @@
 namespace hovercraft {
 namespace {
 
-TEST(Motion, TurnsAtConstantAngularVelocity) {
+TEST(StepMotion, TurnsAtConstantAngularVelocity) {
   RandomBodies random(41);
   for (const double angle : {0.0, 1e-12, 1e-3, 0.3, 1.0, 3.0, 12.0, 100.0}) {
     const Vector3 axis = random.unitVector();
-    Motion motion;
+    StepMotion motion;
     motion.q_WB = random.orientation();
     motion.w_WB = 4.0 * angle * axis;
     const Matrix3 expected =
@@ -22,15 +22,15 @@ TEST(Motion, TurnsAtConstantAngularVelocity) {
   }
 }
 
-TEST(Motion, FallsOnAParabola) {
-  Motion motion;
+TEST(StepMotion, FallsOnAParabola) {
+  StepMotion motion;
   motion.p_WB = Vector3(1, 2, 3);
   motion.v_WB = Vector3(4, 0, 8);
   motion.a_WB = Vector3(0, 0, -16);
   EXPECT_EQ(motion.at(0.5).p_AB, Vector3(3, 2, 5));
 }
 
-TEST(Motion, BetweenTwoPosesEndsAtThem) {
+TEST(StepMotion, BetweenTwoPosesEndsAtThem) {
   RandomBodies random(42);
   for (int i = 0; i < 100; ++i) {
     const Vector3 p_start = random.unitVector();
@@ -39,7 +39,7 @@ TEST(Motion, BetweenTwoPosesEndsAtThem) {
     const Quaternion q_end =
         i % 2 == 0 ? random.orientation()
                    : normalized(quaternionFromAxisAngle(random.unitVector(), 1e-9) * q_start);
-    const Motion motion = motionBetween(p_start, q_start, p_end, q_end, 0.01);
+    const StepMotion motion = motionBetween(p_start, q_start, p_end, q_end, 0.01);
     EXPECT_LT(norm(motion.at(0.01).p_AB - p_end), 1e-15);
     EXPECT_LT((motion.at(0.01).R_AB - rotationMatrix(q_end)).cwiseAbs().maxCoeff(), 4e-15);
     EXPECT_LE(norm(motion.w_WB), 314.16);  // the short way: at most pi
@@ -51,7 +51,7 @@ TEST(SweptBox, HoldsEveryVertexAtEveryTime) {
   RandomBodies random(43);
   for (int i = 0; i < 100; ++i) {
     const ConvexPolyhedron body = random.ellipsoidHull(20, {1.0, 0.5, 0.2});
-    Motion motion;
+    StepMotion motion;
     motion.p_WB = 3.0 * random.unitVector();
     motion.q_WB = random.orientation();
     motion.v_WB = 5.0 * random.unitVector();
@@ -70,7 +70,7 @@ TEST(SweptBox, HoldsEveryVertexAtEveryTime) {
 
 // At rest the box is that of the body, to rounding.
 TEST(SweptBox, OfABodyAtRestIsTight) {
-  const AxisAlignedBox box = sweptBox(boxPolyhedron(Vector3(2, 4, 6)), Motion(), 1.0);
+  const AxisAlignedBox box = sweptBox(boxPolyhedron(Vector3(2, 4, 6)), StepMotion(), 1.0);
   EXPECT_LT(norm(box.high - Vector3(1, 2, 3)), 1e-12);
   EXPECT_LT(norm(box.low - Vector3(-1, -2, -3)), 1e-12);
 }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Motion moving(const Vector3& p, const Vector3& v, const Vector3& w = Vector3(0, 0, 0)) {
-  Motion motion;
+StepMotion moving(const Vector3& p, const Vector3& v, const Vector3& w = Vector3(0, 0, 0)) {
+  StepMotion motion;
   motion.p_WB = p;
   motion.v_WB = v;
   motion.w_WB = w;
@@ -25,7 +25,7 @@ const ImpactMethod kMethods[] = {ImpactMethod::kAdvance, ImpactMethod::kBisectio
 // A point that falls from 1 m meets the floor at sqrt(2 h / g).
 TEST(VertexPlaneImpact, OfAFallingPointIsTheClosedForm) {
   for (const ImpactMethod method : kMethods) {
-    Motion motion = moving(Vector3(0, 0, 1), Vector3(0, 0, 0));
+    StepMotion motion = moving(Vector3(0, 0, 1), Vector3(0, 0, 0));
     motion.a_WB = Vector3(0, 0, -9.81);
     const VertexImpact impact =
         vertexPlaneImpact(Vector3(0, 0, 0), motion, {Vector3(0, 0, 1), 0.0}, {1.0, 1e-10, method});
@@ -39,7 +39,7 @@ TEST(VertexPlaneImpact, OfAFallingPointIsTheClosedForm) {
 // the step are clear. It enters at cos(10 t) = 0.95.
 TEST(VertexPlaneImpact, FindsAVertexThatEntersAndLeavesWithinTheStep) {
   for (const ImpactMethod method : kMethods) {
-    Motion motion = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(10, 0, 0));
+    StepMotion motion = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(10, 0, 0));
     motion.q_WB = quaternionFromAxisAngle(Vector3::UnitX(), -1.0);
     const VertexImpact impact = vertexPlaneImpact(Vector3(0, 0, -1), motion,
                                                   {Vector3(0, 0, 1), -0.95}, {0.2, 1e-9, method});
@@ -60,7 +60,7 @@ TEST(TimeOfImpact, ABulletDoesNotTunnelThroughAPlate) {
   const ConvexPolyhedron plate = boxPolyhedron(Vector3(0.001, 1, 1));
   for (const ImpactMethod method : kMethods) {
     const TimeOfImpact impact =
-        timeOfImpact(bullet, moving(Vector3(-0.5, 0, 0), Vector3(100, 0, 0)), plate, Motion(),
+        timeOfImpact(bullet, moving(Vector3(-0.5, 0, 0), Vector3(100, 0, 0)), plate, StepMotion(),
                      {0.01, 1e-8, method});
     ASSERT_EQ(impact.status, ImpactStatus::kImpact);
     EXPECT_NEAR(impact.time, 0.004945, 1e-10);
@@ -75,9 +75,10 @@ TEST(TimeOfImpact, ABulletDoesNotTunnelThroughAPlate) {
 TEST(TimeOfImpact, ASpinningRodDoesNotPassACorner) {
   const ConvexPolyhedron rod = boxPolyhedron(Vector3(2, 0.01, 0.01));
   const ConvexPolyhedron cube = boxPolyhedron(Vector3(0.1, 0.1, 0.1));
-  Motion corner = moving(Vector3(0, 0.98 + 0.05 * std::sqrt(2.0), 0), Vector3(0, 0, 0));
+  StepMotion corner = moving(Vector3(0, 0.98 + 0.05 * std::sqrt(2.0), 0), Vector3(0, 0, 0));
   corner.q_WB = quaternionFromAxisAngle(Vector3::UnitZ(), kPi / 4);
-  const Motion spin = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(0, 0, kPi * 170 / 180));
+  const StepMotion spin =
+      moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(0, 0, kPi * 170 / 180));
   // The rod's leading corner (1, 0.005), at radius r and atan(0.005) ahead of the rod, meets the
   // side y - x = 0.98 of the cube: r sin b - r cos b = 0.98 at its angle b.
   const double r = std::sqrt(1.0 + 0.005 * 0.005);
@@ -104,10 +105,10 @@ TEST(TimeOfImpact, BodiesThatPassEachOtherDoNotMeet) {
 
 TEST(TimeOfImpact, BodiesThatOverlapAtTheStartAreReported) {
   const ConvexPolyhedron cube = boxPolyhedron(Vector3(1, 1, 1));
-  const TimeOfImpact impact =
-      timeOfImpact(cube, Motion(), cube, moving(Vector3(0.9, 0, 0), Vector3(1, 0, 0)), {1.0, 1e-6});
+  const TimeOfImpact impact = timeOfImpact(
+      cube, StepMotion(), cube, moving(Vector3(0.9, 0, 0), Vector3(1, 0, 0)), {1.0, 1e-6});
   EXPECT_EQ(impact.status, ImpactStatus::kOverlapping);
-  EXPECT_THROW(timeOfImpact(cube, Motion(), cube, Motion(), {0.0, 1e-6}), std::logic_error);
+  EXPECT_THROW(timeOfImpact(cube, StepMotion(), cube, StepMotion(), {0.0, 1e-6}), std::logic_error);
 }
 
 // Random bodies of 32 vertices on a collision course: both methods agree, the bodies are apart by
@@ -118,12 +119,12 @@ TEST(TimeOfImpact, IsNeverLateAndBothMethodsAgree) {
   for (int i = 0; i < 300; ++i) {
     const ConvexPolyhedron A = random.ellipsoidHull(32, {1.0, 0.7, 0.4});
     const ConvexPolyhedron B = random.ellipsoidHull(32, {1.0, 0.7, 0.4});
-    Motion motion_A =
+    StepMotion motion_A =
         moving(Vector3(0, 0, 0), Vector3(0, 0, 0), random.uniform(0, 1.5) * random.unitVector());
     motion_A.q_WB = random.orientation();
     const Vector3 start = 3.0 * random.unitVector();
-    Motion motion_B = moving(start, Vector3(random.unitVector() * 0.3 - start),
-                             random.uniform(0, 1.5) * random.unitVector());
+    StepMotion motion_B = moving(start, Vector3(random.unitVector() * 0.3 - start),
+                                 random.uniform(0, 1.5) * random.unitVector());
     motion_B.q_WB = random.orientation();
     motion_B.a_WB = 0.5 * random.unitVector();
     const TimeOfImpact fast = timeOfImpact(A, motion_A, B, motion_B, {1.0, 1e-6});

@@ -114,6 +114,15 @@ class Mobility {
     return times(inverse_inertia_B_, transposeTimes(R_WB, angular_momentum_W));
   }
 
+  /// 1/m along each axis of W; 0 where the model does not move.
+  Vector3 inverseMass() const { return inverse_mass_ * free_translation_; }
+
+  /// R Î⁻¹ Rᵀ in W, restricted to the model's rotations.
+  Matrix3 inverseInertia(const Matrix3& R_WB) const {
+    const Matrix3 turned = product(R_WB, inverse_inertia_B_);
+    return product(turned, R_WB.transpose());
+  }
+
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);

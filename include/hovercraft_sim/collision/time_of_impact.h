@@ -41,8 +41,8 @@ struct TimeOfImpact {
 /// converge as Newton's do; else f' is bounded by the speed of the bodies' farthest points. Nothing
 /// tunnels: there is no sample between which something could happen.
 /// @throws std::logic_error if duration or tolerance are not positive.
-TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const Motion& motion_A,
-                          const ConvexPolyhedron& B, const Motion& motion_B,
+TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
+                          const ConvexPolyhedron& B, const StepMotion& motion_B,
                           const ImpactSearch& search);
 
 /// A fixed plane: normal · x = offset.
@@ -61,7 +61,7 @@ struct VertexImpact {
 /// The first time in a step at which a vertex p_B of a moving body comes within `tolerance` of a
 /// fixed plane: the source's first step (physics.md 5), by bisection or by steps from rate and
 /// curvature; each finds the first of several contacts.
-VertexImpact vertexPlaneImpact(const Vector3& p_B, const Motion& motion, const Plane& plane,
+VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion, const Plane& plane,
                                const ImpactSearch& search);
 
 }  // namespace hovercraft

@@ -10,6 +10,7 @@
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
+#include "hovercraft_sim/ros/body_messages.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/run.h"
@@ -26,6 +27,7 @@ class BagWriter : public hovercraft::StateSink {
 
   void state(const hovercraft::Simulation& simulation) override;
   void applied(const hovercraft::Command& command) override;
+  void contact(const hovercraft::ContactEvent& event) override;
   void close() override;
 
   /// An event that was just applied, at the tick and of the episode that it names. After one that
@@ -53,6 +55,7 @@ class BagWriter : public hovercraft::StateSink {
   std::uint32_t episode_ = 0;
   std::uint64_t events_ = 0;  // of that episode
   std::vector<VehicleMessages> vehicles_;
+  std::vector<BodyMessages> bodies_;
   tf2_msgs::TFMessage transforms_;
 };
 

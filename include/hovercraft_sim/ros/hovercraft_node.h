@@ -14,6 +14,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "hovercraft_sim/ros/body_messages.h"
 #include "hovercraft_sim/ros/clock_source.h"
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/lockstep.h"
@@ -74,6 +75,9 @@ class HovercraftNode {
   std::optional<ClockSource> clock_;
   bool paused_;
   std::vector<std::unique_ptr<VehicleInterface>> vehicles_;
+  std::vector<BodyMessages> bodies_;        // loose ones
+  std::vector<ros::Publisher> body_poses_;  // of each
+  ros::Publisher contacts_;
   ros::Publisher scenario_, events_, telemetry_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;

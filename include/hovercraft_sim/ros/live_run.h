@@ -28,6 +28,8 @@ class LiveRun {
   /// ROS time of the current tick.
   ros::Time stamp() const { return stampOf(simulation_.tick()); }
   ros::Time stampOf(hovercraft::Tick tick) const;
+  /// Of tick 0 of this episode, ns.
+  std::int64_t epochNs() const { return epoch_ns_; }
 
   /// Applies an event at the current tick (run_events.h) and returns it with its header, number,
   /// tick and episode.

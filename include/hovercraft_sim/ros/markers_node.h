@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <vector>
+#include <visualization_msgs/Marker.h>
 
 #include <geometry_msgs/PoseStamped.h>
 #include <hovercraft_sim/EngineStatus.h>
@@ -36,12 +37,15 @@ class MarkersNode {
   void watch(const hovercraft::VehicleScenario& description);
   static void extendPath(Craft& craft, const geometry_msgs::PoseStamped& pose);
   void publish();
+  void makeStill(const std::string& world_frame);
 
   ros::NodeHandle handle_;
   ros::Publisher publisher_;
   ros::Subscriber scenario_subscriber_;
   ros::WallTimer timer_;
   std::vector<std::unique_ptr<Craft>> craft_;
+  hovercraft::Scenario scenario_;
+  std::vector<visualization_msgs::Marker> still_;
 };
 
 }  // namespace hovercraft_ros

@@ -33,6 +33,7 @@ struct ReplayResult {
 struct ReplayObserver {
   std::function<void(const hovercraft::Simulation&)> on_state;  // where the recording holds a state
   std::function<void(const hovercraft::Command&)> on_applied;
+  std::function<void(const hovercraft::ContactEvent&)> on_contact;
   /// After the event was applied.
   std::function<void(const hovercraft_sim::RunEvent&, const hovercraft::Simulation&)> on_event;
 };

@@ -26,6 +26,13 @@ std::vector<visualization_msgs::Marker> craftMarkers(const hovercraft::VehicleSc
 std::vector<visualization_msgs::Marker> thrustMarkers(const hovercraft::VehicleScenario& craft,
                                                       const hovercraft_sim::EngineStatus& engines);
 
+/// The hull of a loose body, locked to `<name>/base_link`.
+visualization_msgs::Marker bodyMarker(const hovercraft::VehicleScenario& body);
+
+/// The fixed obstacles of a scenario, in the world frame.
+std::vector<visualization_msgs::Marker> obstacleMarkers(const hovercraft::Scenario& scenario,
+                                                        const std::string& world_frame);
+
 /// The way that base_link came, a line in the world frame.
 visualization_msgs::Marker pathMarker(const hovercraft::VehicleScenario& craft,
                                       const std::string& world_frame,

@@ -23,6 +23,8 @@ class StateSink {
   virtual void state(const Simulation& simulation) = 0;
   /// A command that takes effect at its tick.
   virtual void applied(const Command& /*command*/) {}
+  /// A contact, when the step in which it happened is done, before the state after it.
+  virtual void contact(const ContactEvent& /*event*/) {}
   /// The run is over and was whole. @throws std::invalid_argument if it could not all be written.
   virtual void close() = 0;
 };
@@ -50,7 +52,7 @@ struct RunSummary {
 
 /// Steps a simulation to the plan's last tick as fast as it goes: commands from the source, states
 /// to the sink, which is closed at the end.
-/// @param simulation at the beginning of the run; its on_applied is taken over.
+/// @param simulation at the beginning of the run; its on_applied and on_contact are taken over.
 RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
                const RunPlan& plan);
 

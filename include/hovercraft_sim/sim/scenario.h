@@ -1,13 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "hovercraft_sim/body/mass_properties.h"
 #include "hovercraft_sim/body/steppers.h"
+#include "hovercraft_sim/contact/material.h"
 #include "hovercraft_sim/hovercraft/drag.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/math/time.h"
@@ -44,6 +47,19 @@ struct PartScenario {
   Vector3 rpy = Vector3::Zero();   // fixed-axis roll, pitch, yaw, rad
 };
 
+/// The vertices of a convex body.
+struct PointsShape {
+  std::vector<Vector3> points;
+};
+
+/// The convex body by which something meets others, placed in its frame H. A sphere is a polyhedron
+/// of 162 vertices on it, a cylinder a prism of 24 sides in it.
+struct HullScenario {
+  std::variant<BoxShape, CylinderShape, SphereShape, PointsShape> shape;
+  Vector3 p_HS = Vector3::Zero();  // position, m
+  Vector3 rpy = Vector3::Zero();   // rad
+};
+
 /// One craft. Parts and engines are placed in the hull frame H (base_link); the initial motion is
 /// that of the body frame B at the centre of mass, in W.
 struct VehicleScenario {
@@ -52,10 +68,42 @@ struct VehicleScenario {
   std::vector<PartScenario> parts;  // empty if mass and inertia were given
   std::array<EngineParameters, kEngineCount> engines;
   Drag drag;
+  std::optional<HullScenario>
+      hull;                  // none: the convex hull of the parts, in a scenario with a world
+  std::size_t material = 0;  // index into WorldScenario::materials
   Vector3 initial_p_WB = Vector3::Zero();  // m
   Vector3 initial_rpy = Vector3::Zero();   // rad
   Vector3 initial_v_WB = Vector3::Zero();  // m/s
   Vector3 initial_w_WB = Vector3::Zero();  // rad/s
+};
+
+struct MaterialScenario {
+  std::string name;
+  ContactMaterial surface;
+};
+
+/// The law between two materials where it is not the combined one.
+struct MaterialPairScenario {
+  std::size_t first = 0;  // indices of materials
+  std::size_t second = 0;
+  ContactMaterial law;
+};
+
+struct ObstacleScenario {
+  std::string name;
+  HullScenario hull;  // placed in W
+  std::size_t material = 0;
+};
+
+/// What the bodies of a scenario meet, and how. Loose bodies are craft whose engines have no
+/// thrust.
+struct WorldScenario {
+  double tolerance = 1e-6;                                      // m
+  double rest_speed = 0.01;                                     // m/s
+  std::vector<MaterialScenario> materials = {{"default", {}}};  // "default" first, then by name
+  std::vector<MaterialPairScenario> material_pairs;
+  std::vector<ObstacleScenario> obstacles;  // by name
+  std::vector<VehicleScenario> bodies;      // by name
 };
 
 /// Everything that determines a run except the commands; checked when it was read
@@ -69,6 +117,7 @@ struct Scenario {
   Vector3 wind = Vector3::Zero();     // m/s, in W
   std::int64_t seed = 1;
   std::vector<VehicleScenario> vehicles;  // in the order of their names
+  std::optional<WorldScenario> world;     // none: craft pass through each other
 
   double stepSize() const { return toSeconds(step_ns); }  // s
 };

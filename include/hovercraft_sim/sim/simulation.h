@@ -3,21 +3,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/body/body_state.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/world/world.h"
 
 namespace hovercraft {
-
-/// State of a craft's body in the representation that the scenario chose.
-using BodyState = std::variant<RigidBodyState<Quaternion>, RigidBodyState<Matrix3>>;
 
 /// Everything about one craft that determines its future.
 struct VehicleState {
@@ -41,6 +39,21 @@ struct SimulationState {
   std::int64_t seed = 1;
   std::vector<VehicleState> vehicles;    // in the order of the scenario
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
+  std::vector<BodyState> bodies;         // loose ones, in the order of the scenario
+  std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
+};
+
+/// A contact as it is reported: once, in the step in which it happened.
+struct ContactEvent {
+  ContactKind kind = ContactKind::kBounce;
+  std::int64_t time_ns = 0;  // of the impact, to the nearest ns
+  double time = 0.0;         // s
+  Tick tick = 0;             // at the end of the step
+  std::string a;             // names
+  std::string b;
+  Vector3 p_WC;         // m
+  Vector3 nhat_AB_W;    // unit
+  Vector3 impulse_B_W;  // N s, on b
 };
 
 /// Motion of one craft as it is reported; W world, B at the centre of mass.
@@ -79,6 +92,10 @@ class Simulation {
   void setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                  const Twist& twist);
 
+  /// The body that a craft would overlap there by more than the tolerance; none without a world.
+  std::optional<WorldOverlap> overlapAt(std::size_t vehicle, const Vector3& p_WB,
+                                        const Quaternion& q_WB) const;
+
   /// Adds a wrench from the current tick until its end tick.
   void applyWrench(const ExternalWrench& wrench);
 
@@ -102,6 +119,12 @@ class Simulation {
 
   const VehicleState& state(std::size_t vehicle) const { return state_.vehicles[vehicle]; }
   Motion motion(std::size_t vehicle) const;
+  /// Of a loose body.
+  Motion bodyMotion(std::size_t body) const;
+  /// Null if the scenario has no world.
+  const World* world() const { return world_ ? &*world_ : nullptr; }
+  /// Where every body of the world is, vehicles first.
+  std::vector<BodyState> worldStates() const;
   EngineReport engineReport(std::size_t vehicle, int engine) const;
 
   /// Hash of everything that determines the future of one craft, or of all: FNV-1a, 64 bits,
@@ -111,12 +134,19 @@ class Simulation {
 
   /// Called for every command when it takes effect; not set: nothing is called.
   std::function<void(const Command&)> on_applied;
+  /// Called for every contact of a step, in the order of time, when the step is done.
+  std::function<void(const ContactEvent&)> on_contact;
 
  private:
   void applyDueCommands();
   void stepVehicle(std::size_t vehicle);
-  [[noreturn]] void failAsDiverged(std::size_t vehicle) const;
+  [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
+  void stepWorld();
+  void report();
+  BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
+                   const Mobility& mobility) const;
+  void partTouching(int body);
 
   Scenario scenario_;
   double h_;  // s
@@ -124,6 +154,10 @@ class Simulation {
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;
   CommandLog commands_;
+  std::optional<World> world_;
+  std::vector<BodyState> moving_;  // of a step: vehicles, then loose bodies
+  std::vector<BodyDrive> drives_;
+  std::vector<ContactRecord> records_;
 };
 
 }  // namespace hovercraft

@@ -36,7 +36,7 @@ class StateHash {
   }
   /// Position, orientation, momenta; then of each engine: command, thrust, tick of the command.
   void add(const VehicleState& state) {
-    std::visit([this](const auto& body) { addBody(body); }, state.body);
+    add(state.body);
     for (const EngineState& engine : state.engines) {
       add(engine.commanded);
       add(engine.thrust);
@@ -51,6 +51,30 @@ class StateHash {
     add(external.wrench.force);
     add(external.wrench.torque);
     add(external.end_tick);
+  }
+
+  /// A loose body: as the body of a vehicle.
+  void add(const BodyState& state) {
+    std::visit([this](const auto& body) { addBody(body); }, state);
+  }
+
+  /// Both bodies, features and hints, whether it rests; number of points, then point and force of
+  /// each.
+  void add(const ContactMemory& contact) {
+    add(static_cast<std::int64_t>(contact.a));
+    add(static_cast<std::int64_t>(contact.b));
+    add(static_cast<std::uint64_t>(contact.features.known ? 1 : 0));
+    for (const Feature& feature : {contact.features.a, contact.features.b}) {
+      add(static_cast<std::uint64_t>(feature.kind));
+      add(static_cast<std::int64_t>(feature.index));
+    }
+    for (const std::int32_t hint : contact.features.hints) add(static_cast<std::int64_t>(hint));
+    add(static_cast<std::uint64_t>(contact.resting ? 1 : 0));
+    add(static_cast<std::int64_t>(contact.count));
+    for (int i = 0; i < contact.count; ++i) {
+      add(contact.p_AC[static_cast<std::size_t>(i)]);
+      add(contact.force_B_W[static_cast<std::size_t>(i)]);
+    }
   }
 
   std::uint64_t value() const { return value_; }

@@ -12,8 +12,8 @@ namespace hovercraft {
 
 /// Writes states as CSV with the header `time,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz`: s, m, m/s,
 /// rad/s; position of the centre of mass and both velocities in world axes, q = B -> W. Of several
-/// vehicles each has its row, with its name in a column `vehicle` after the time. Times are exact;
-/// the other numbers have the 17 digits that tell one double from the next.
+/// vehicles and loose bodies each has its row, with its name in a column `vehicle` after the time.
+/// Times are exact; the other numbers have the 17 digits that tell one double from the next.
 class StatesCsvWriter : public StateSink {
  public:
   /// @param path `-` is the standard output.
@@ -28,6 +28,7 @@ class StatesCsvWriter : public StateSink {
   void flush();
 
   OutputFile file_;
+  std::vector<std::string> body_columns_;     // `,name` of each loose body
   std::vector<std::string> vehicle_columns_;  // `,name`; nothing for a single vehicle
   fmt::memory_buffer buffer_;
 };

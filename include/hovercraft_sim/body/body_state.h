@@ -1,0 +1,29 @@
+#pragma once
+
+#include <variant>
+
+#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/geometry/pose.h"
+
+namespace hovercraft {
+
+/// State of a body in the representation of its orientation that the scenario chose.
+using BodyState = std::variant<RigidBodyState<Quaternion>, RigidBodyState<Matrix3>>;
+
+inline Pose poseOf(const BodyState& state) {
+  return std::visit(
+      [](const auto& body) {
+        return Pose{rotationMatrix(body.orientation), body.p_WB};
+      },
+      state);
+}
+
+inline Quaternion orientationOf(const BodyState& state) {
+  return std::visit([](const auto& body) { return toQuaternion(body.orientation); }, state);
+}
+
+inline Twist twistOf(const BodyState& state, const Mobility& mobility) {
+  return std::visit([&](const auto& body) { return mobility.twist(body); }, state);
+}
+
+}  // namespace hovercraft

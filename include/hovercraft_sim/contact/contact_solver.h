@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hovercraft_sim/body/rigid_body.h"
+
+namespace hovercraft {
+
+/// A body as contacts see it. A fixed one has inverse mass and inertia 0; those of the planar model
+/// are projected on (x, y, yaw). All in W.
+struct ContactBody {
+  Vector3 p_WB = Vector3::Zero();             // m, centre of mass
+  Vector3 inverse_mass = Vector3::Zero();     // 1/kg, along each axis
+  Matrix3 inverse_inertia = Matrix3::Zero();  // 1/(kg m²)
+  Twist twist{Vector3::Zero(), Vector3::Zero()};
+};
+
+/// What is asked of one point of contact: B must leave A with at least `target` along the normal.
+struct ContactDemand {
+  std::int32_t a = 0;  // index of a body
+  std::int32_t b = 0;
+  Vector3 nhat_AB_W = Vector3::Zero();
+  Vector3 p_WC = Vector3::Zero();   // m, where the impulse acts, on both
+  double target = 0.0;              // m/s
+  double friction = 0.0;            // (-); infinite: no slip
+  bool bilateral = false;           // v_n = target and no slip, whatever the impulse
+  Vector3 start = Vector3::Zero();  // N s, on B: the impulse to begin with
+};
+
+/// Impulses at many points at once: at each
+///   0 <= lambda_n,  v_n >= target,  lambda_n (v_n - target) = 0
+///   |lambda_t| <= mu lambda_n,  v_t = 0 or lambda_t against v_t at the bound
+/// with v the velocity of B against A there, and twist' = twist + M⁻¹ Jᵀ lambda of every body. A
+/// body takes and gives the same impulse at the same point, so that momentum and angular momentum
+/// of a free pair stay.
+///
+/// Projected Gauss-Seidel sweeps in the order of the points, between which the search goes on as
+/// conjugate gradients do (Silcowitz, Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate
+/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. The last thing
+/// is always a sweep, whose impulses obey the bounds. No allocation once it has grown to its
+/// working size.
+class ContactSolver {
+ public:
+  struct Limits {
+    int sweeps = 0;  // at most
+    int least_sweeps = 1;
+    double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
+  };
+
+  /// Forgets all bodies and points.
+  void clear();
+  /// @returns its index.
+  std::int32_t add(const ContactBody& body);
+  /// Applies its starting impulse. @returns the index of the point.
+  std::size_t add(const ContactDemand& point);
+  /// Forgets the points; bodies keep their twists.
+  void clearPoints() { points_.clear(); }
+
+  /// @returns the number of sweeps.
+  int solve(const Limits& limits);
+
+  std::vector<ContactBody>& bodies() { return bodies_; }
+  const std::vector<ContactBody>& bodies() const { return bodies_; }
+  std::size_t pointCount() const { return points_.size(); }
+  /// Velocity of B against A at a point, in W, m/s.
+  Vector3 velocityAt(std::size_t point) const;
+  /// Where it acts, m, in W.
+  Vector3 positionOf(std::size_t point) const {
+    const Point& at = points_[point];
+    return bodies_[static_cast<std::size_t>(at.a)].p_WB + at.r_a;
+  }
+  /// The impulse on B, N s, in W.
+  Vector3 impulse(std::size_t point) const;
+
+ private:
+  /// One direction of a point: what a unit impulse does to both bodies.
+  struct Direction {
+    Vector3 d;         // unit, in W
+    Vector3 linear_a;  // m/s per N s
+    Vector3 linear_b;
+    Vector3 angular_a;  // rad/s per N s
+    Vector3 angular_b;
+    double mass;    // kg: N s per m/s; 0 where neither body can move
+    double lambda;  // N s
+  };
+  struct Point {
+    std::int32_t a;
+    std::int32_t b;
+    Vector3 r_a;  // m, from the centre of mass
+    Vector3 r_b;
+    double target;
+    double friction;
+    bool bilateral;
+    double slip_mass;  // kg, the least along any tangent
+    double coupling;   // 1/kg: what a unit impulse along the second tangent does along the first
+    Direction directions[3];  // normal and two tangents
+  };
+
+  Direction direction(const Point& point, const Vector3& d) const;
+  Vector3 velocity(const Point& point) const;
+  void apply(const Point& point, const Direction& direction, double impulse);
+  void keepImpulses();
+  double lengthOfSweep() const;
+  void goOn(double share);
+  double relax(Point& point);
+  double relaxNormal(Point& point);
+  double relaxTangents(Point& point);
+
+  std::vector<ContactBody> bodies_;
+  std::vector<Point> points_;
+  std::vector<double> before_;  // N s, three for each point
+  std::vector<double> search_;  // N s
+};
+
+}  // namespace hovercraft

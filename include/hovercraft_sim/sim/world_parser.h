@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+
+namespace hovercraft {
+
+/// The path of a mesh that a reader's `file` names. @throws std::invalid_argument
+std::string meshPath(const ConfigReader& reader, const ScenarioSource& source);
+
+/// Name, mass, drag and initial motion, of a craft or a loose body.
+/// @throws std::invalid_argument
+VehicleScenario parseMovingBody(const std::string& name, const ConfigReader& reader,
+                                const ScenarioSource& source, BodyModel model);
+
+/// Reads `world`, and `hull` and `material` of the vehicles that were read before; nothing without
+/// `world`, where these keys are refused.
+/// @param top the whole scenario. @throws std::invalid_argument, also if bodies overlap at the
+/// start.
+void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario& scenario);
+
+/// The text of `world` for toYaml(), and of `hull` and `material` of a craft, indented by four.
+std::string worldYaml(const Scenario& scenario);
+std::string surfaceYaml(const VehicleScenario& vehicle, const Scenario& scenario);
+
+}  // namespace hovercraft

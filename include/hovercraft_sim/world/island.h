@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "hovercraft_sim/contact/contact_solver.h"
+#include "hovercraft_sim/contact/impact.h"
+#include "hovercraft_sim/world/world_types.h"
+
+namespace hovercraft {
+
+class World;
+
+/// A pair of bodies of the island.
+struct IslandLink {
+  ContactMemory memory;
+  ClosestFeatures closest;
+  ContactManifold manifold;
+  ContactMaterial material;
+  int impacts = 0;  // in this step
+  bool touching = false;
+  std::int32_t slot_a = 0;  // bodies of the solver
+  std::int32_t slot_b = 0;
+  std::size_t first_point = 0;  // of its points in a solve
+  int point_count = 0;
+};
+
+/// A body of the island.
+struct IslandMember {
+  std::int32_t index = 0;  // in the world
+  BodyState state;
+  BodyState end;
+  Pose pose;
+  Pose end_pose;   // at the end of the piece without contact
+  Wrench contact;  // constant force and moment over the piece of a step
+  StepMotion motion;
+  double travelled = 0.0;  // m
+};
+
+/// The arrays of the event loop, kept from step to step so that nothing is allocated.
+struct IslandScratch {
+  std::vector<IslandLink> links;
+  std::vector<IslandMember> members;
+  std::vector<std::int32_t> slots;  // of each body of the world
+  std::vector<ImpactPoint> impact_points;
+  ContactSolver solver;
+  ImpactSolver impact;
+};
+
+/// One step of bodies that are near each other: the event loop of doc/contact.md. Made anew for
+/// each step; its arrays live in the caller's IslandScratch, so that nothing is allocated once
+/// warmed up.
+class Island {
+ public:
+  Island(const World& world, const std::vector<BodyDrive>& drives, IslandScratch& scratch,
+         std::vector<ContactRecord>& records)
+      : world_(world), drives_(drives), s_(scratch), records_(records) {}
+
+  /// @param bodies and pairs of the group, ascending. @param memory ascending.
+  void begin(const std::vector<std::int32_t>& bodies,
+             const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
+             const std::vector<BodyState>& states, const std::vector<ContactMemory>& memory);
+  /// Runs the events of the step. @returns false if their bound cut off the rest of it.
+  bool run();
+
+ private:
+  void look(double left);
+  bool repair();
+  ClosestFeatures closestNow(IslandLink& link);
+  bool shiftApart(const IslandLink& link, double by);
+  void strike(double now);
+  bool isStruck() const;
+  void report(double now);
+  void press(double now);
+  double curvature(const IslandLink& link, const Vector3& p_WC) const;
+  bool addRestPoints(IslandLink& link, double left);
+  void takeForces(double now, double left);
+  double advance(double now);
+  bool firstImpact(double duration, double share, double& time) const;
+  BodyState moved(const IslandMember& member, double from, double to, bool with_contact) const;
+  double restSpeed(const IslandLink& link) const;
+  const Pose& poseOfIndex(std::int32_t index) const;
+  StepMotion motionOfIndex(std::int32_t index) const;
+  void addBodies(bool at_end);
+
+  const World& world_;
+  const std::vector<BodyDrive>& drives_;
+  IslandScratch& s_;
+  std::vector<ContactRecord>& records_;
+  bool stuck_ = false;    // the last piece had no length
+  bool plastic_ = false;  // the bound on bounces is reached
+};
+
+}  // namespace hovercraft

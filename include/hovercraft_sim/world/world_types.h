@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hovercraft_sim/body/body_state.h"
+#include "hovercraft_sim/collision/closest_features.h"
+#include "hovercraft_sim/collision/motion.h"
+#include "hovercraft_sim/contact/manifold.h"
+#include "hovercraft_sim/contact/material.h"
+#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+
+namespace hovercraft {
+
+/// A body that moves: a craft, or a loose body without engines.
+struct WorldBody {
+  std::string name;
+  HovercraftModel model;
+  ConvexPolyhedron hull;  // in B
+  int material = 0;       // index into WorldRules
+};
+
+/// A body that never moves.
+struct WorldObstacle {
+  std::string name;
+  ConvexPolyhedron hull;
+  Pose X_WO;
+  int material = 0;
+};
+
+/// How bodies meet.
+struct WorldRules {
+  Integrator integrator = Integrator::kHeun;
+  double step = 0.0;         // s
+  double tolerance = 1e-6;   // m: bodies within it touch; no state overlaps by more
+  double rest_speed = 0.01;  // m/s: a slower approach does not bounce, in the share (1 - e)
+  int material_count = 1;
+  std::vector<ContactMaterial> pairs = {{}};  // material_count rows and columns, symmetric
+
+  const ContactMaterial& pair(int a, int b) const {
+    return pairs[static_cast<std::size_t>(a * material_count + b)];
+  }
+};
+
+/// What moves one body during a step besides contact.
+struct BodyDrive {
+  ThrustCourse thrusts{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
+  ExternalLoad load;
+  bool is_pushed = false;
+};
+
+/// What a pair that is near keeps from step to step; it determines the future, as the solver starts
+/// from it. Bodies by index: the moving ones first, then the obstacles.
+struct ContactMemory {
+  std::int32_t a = 0;  // a < b
+  std::int32_t b = 0;
+  FeaturePair features;
+  bool resting = false;
+  int count = 0;                                               // points that were pressed
+  std::array<Vector3, ContactManifold::kMaxPoints> p_AC;       // m, in A
+  std::array<Vector3, ContactManifold::kMaxPoints> force_B_W;  // N, on B
+};
+
+enum class ContactKind { kBounce, kStick, kRest };
+
+/// Something that happened between two bodies in a step, once.
+struct ContactRecord {
+  ContactKind kind = ContactKind::kBounce;
+  std::int32_t a = 0;
+  std::int32_t b = 0;
+  double time = 0.0;                    // s, from the start of the step
+  Vector3 p_WC = Vector3::Zero();       // m, mean of the points, by their impulses
+  Vector3 nhat_AB_W = Vector3::Zero();  // unit
+  Vector3 impulse_B_W =
+      Vector3::Zero();  // N s, on B; at rest: of the part of the step that is left
+};
+
+/// Two bodies that overlap.
+struct WorldOverlap {
+  std::string a;
+  std::string b;
+  double depth = 0.0;  // m
+};
+
+}  // namespace hovercraft

@@ -1,0 +1,118 @@
+#include "hovercraft_sim/contact/impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hovercraft_sim/math/tolerances.h"
+
+namespace hovercraft {
+namespace {
+
+Vector3 velocityAt(const ContactSolver& solver, const ImpactPoint& point) {
+  const ContactBody& A = solver.bodies()[static_cast<std::size_t>(point.a)];
+  const ContactBody& B = solver.bodies()[static_cast<std::size_t>(point.b)];
+  return velocityOfPoint(B.twist, point.p_WC, B.p_WB) -
+         velocityOfPoint(A.twist, point.p_WC, A.p_WB);
+}
+
+double restitutionOf(const ImpactPoint& point, double speed) {
+  return point.material.stick || -speed < point.plastic_speed ? 0.0 : point.material.restitution;
+}
+
+/// The largest speed of any point, m/s: what rounding is measured against.
+double scaleOf(const ContactSolver& solver, const std::vector<ImpactPoint>& points) {
+  double scale = 0.0;
+  for (const ImpactPoint& point : points) {
+    for (const std::int32_t index : {point.a, point.b}) {
+      const ContactBody& body = solver.bodies()[static_cast<std::size_t>(index)];
+      scale = std::max(
+          scale, norm(body.twist.v_WB) + norm(body.twist.w_WB) * norm(point.p_WC - body.p_WB));
+    }
+  }
+  return scale;
+}
+
+}  // namespace
+
+/// One simultaneous solve. @param share of each restitution. @returns the energy that it added, J.
+double ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share,
+                             Round kind) {
+  const bool all_plastic = kind != Round::kUsual;
+  const bool frictionless = kind == Round::kPlasticWithoutFriction;
+  const double scale = scaleOf(solver, points);
+  solver.clearPoints();
+  chosen_.clear();
+  before_.clear();
+  speeds_.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ImpactPoint& point = points[i];
+    const Vector3 v = velocityAt(solver, point);
+    const double speed = dot(point.nhat_AB_W, v);
+    speeds_.push_back(speed);
+    if (!all_plastic && speed > kStandingPoint * scale) continue;
+    ContactDemand asked;
+    asked.a = point.a;
+    asked.b = point.b;
+    asked.nhat_AB_W = point.nhat_AB_W;
+    asked.p_WC = point.p_WC;
+    asked.target = all_plastic ? 0.0 : share * restitutionOf(point, speed) * std::max(0.0, -speed);
+    asked.friction = frictionless ? 0.0 : point.material.friction;
+    asked.bilateral = point.material.stick && !frictionless;
+    chosen_.push_back(i);
+    before_.push_back(v);
+    solver.add(asked);
+  }
+  const auto count = static_cast<int>(chosen_.size());
+  const double residual = points.size() < kCrowd ? kImpactResidual : kCrowdResidual;
+  solver.solve({std::max(kMinImpactSweeps, kMaxImpactRelaxations / std::max(1, count)), 1,
+                residual * scale});
+  double gained = 0.0;
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    gained += 0.5 * dot(solver.impulse(k), Vector3(before_[k] + solver.velocityAt(k)));
+  }
+  return gained;
+}
+
+void ImpactSolver::take(const ContactSolver& solver, std::vector<ImpactPoint>& points) {
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    ImpactPoint& point = points[chosen_[k]];
+    const Vector3 impulse = solver.impulse(k);
+    point.impulse += impulse;
+    const double approach = -speeds_[chosen_[k]];
+    point.approach = std::max(point.approach, approach);
+    if (dot(impulse, point.nhat_AB_W) > 0.0 && approach > 0.0 &&
+        restitutionOf(point, -approach) > 0.0) {
+      point.bounced = true;
+    }
+  }
+}
+
+void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& points) {
+  const bool has_friction = std::any_of(points.begin(), points.end(), [](const ImpactPoint& p) {
+    return p.material.friction > 0.0 || p.material.stick;
+  });
+  for (int round = 0; round <= kMaxImpactRounds + 1; ++round) {
+    const double standing = points.size() < kCrowd ? kStandingPoint : 10.0 * kCrowdResidual;
+    const double tolerance = standing * scaleOf(solver, points);
+    const bool approaching =
+        std::any_of(points.begin(), points.end(), [&](const ImpactPoint& point) {
+          return dot(point.nhat_AB_W, velocityAt(solver, point)) < -tolerance;
+        });
+    if (!approaching) return;
+    const Round kind = round < kMaxImpactRounds    ? Round::kUsual
+                       : round == kMaxImpactRounds ? Round::kPlastic
+                                                   : Round::kPlasticWithoutFriction;
+    twists_.clear();
+    for (const ContactBody& body : solver.bodies()) twists_.push_back(body.twist);
+    double share = 1.0;
+    for (int attempt = 0; attempt <= kMaxHalvedRestitutions; ++attempt) {
+      const double gained = roundOf(solver, points, share, kind);
+      if (gained <= 0.0 || !has_friction || attempt == kMaxHalvedRestitutions) break;
+      for (std::size_t i = 0; i < twists_.size(); ++i) solver.bodies()[i].twist = twists_[i];
+      share = attempt + 2 >= kMaxHalvedRestitutions ? 0.0 : 0.5 * share;
+    }
+    take(solver, points);
+  }
+}
+
+}  // namespace hovercraft

@@ -1,0 +1,236 @@
+#include "hovercraft_sim/contact/manifold.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hovercraft_sim/math/tolerances.h"
+
+namespace hovercraft {
+namespace {
+
+/// Most corners that a clipped face is followed with: each side of the other face adds one at most,
+/// and corners beyond this many are left to the time of impact.
+constexpr int kMaxCorners = 64;
+
+struct Corners {
+  std::array<Vector3, kMaxCorners> points;
+  int count = 0;
+
+  void add(const Vector3& p) {
+    if (count < kMaxCorners) points[static_cast<std::size_t>(count++)] = p;
+  }
+  const Vector3& operator[](int i) const { return points[static_cast<std::size_t>(i)]; }
+};
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// The face of a body that looks most along a direction of W: uphill on the faces of the support
+/// vertex would do for a smooth answer; the faces around the supporting feature hold it.
+int faceAlong(const ConvexPolyhedron& body, const Pose& X_WB, const Vector3& direction_W,
+              double& alignment) {
+  const Vector3 direction = transposeTimes(X_WB.R_AB, direction_W);
+  const PolyhedronData& data = body.data();
+  const PolyhedronData::Vertex& vertex = data.vertices[at(body.supportVertex(direction))];
+  int best = -1;
+  for (std::int32_t k = 0; k < vertex.fan_count; ++k) {
+    const std::int32_t edge = data.fan_edge[at(vertex.fan_begin + k)] / 2;
+    for (const std::int32_t face : data.edges[at(edge)].face) {
+      const double along = dot(data.faces[at(face)].normal, direction);
+      if (best < 0 || along > alignment || (along == alignment && face < best)) {
+        best = face;
+        alignment = along;
+      }
+    }
+  }
+  return best;
+}
+
+/// The corners of a face in W.
+Corners cornersOf(const ConvexPolyhedron& body, const Pose& X_WB, int face) {
+  const PolyhedronData& data = body.data();
+  const PolyhedronData::Face& f = data.faces[at(face)];
+  Corners corners;
+  for (std::int32_t k = 0; k < f.ring_count; ++k) {
+    const PolyhedronData::Edge& edge = data.edges[at(data.ring_edge[at(f.ring_begin + k)])];
+    const int first = edge.face[0] == face ? 0 : 1;
+    corners.add(transform(X_WB, data.vertices[at(edge.vertex[first])].p));
+  }
+  return corners;
+}
+
+/// The part of a polygon on the inner side of a plane.
+Corners clipped(const Corners& polygon, const Vector3& inward, double offset) {
+  Corners kept;
+  for (int i = 0; i < polygon.count; ++i) {
+    const Vector3& p = polygon[i];
+    const Vector3& q = polygon[i + 1 < polygon.count ? i + 1 : 0];
+    const double p_in = dot(inward, p) - offset;
+    const double q_in = dot(inward, q) - offset;
+    if (p_in >= 0.0) kept.add(p);
+    if ((p_in > 0.0 && q_in < 0.0) || (p_in < 0.0 && q_in > 0.0)) {
+      kept.add(p + (p_in / (p_in - q_in)) * (q - p));
+    }
+  }
+  return kept;
+}
+
+/// The eight of more points that lie farthest in eight directions of the plane across n.
+void reduce(ContactManifold& manifold, const ContactPoint* points, int count) {
+  const Vector3& n = manifold.nhat_AB_W;
+  const Vector3 axis = std::abs(n.x()) < 0.6 ? Vector3(1.0, 0.0, 0.0) : Vector3(0.0, 1.0, 0.0);
+  Vector3 t1 = cross(n, axis);
+  t1 = t1 / norm(t1);
+  const Vector3 t2 = cross(n, t1);
+  const double cosines[8] = {1.0, 0.7, 0.0, -0.7, -1.0, -0.7, 0.0, 0.7};
+  std::array<bool, kMaxCorners> taken{};
+  for (int k = 0; k < 8; ++k) {
+    const Vector3 direction = cosines[k] * t1 + cosines[(k + 6) % 8] * t2;
+    int best = 0;
+    for (int i = 1; i < count; ++i) {
+      if (dot(points[i].p_WC, direction) > dot(points[best].p_WC, direction)) best = i;
+    }
+    if (taken[static_cast<std::size_t>(best)]) continue;
+    taken[static_cast<std::size_t>(best)] = true;
+    manifold.points[static_cast<std::size_t>(manifold.count++)] = points[best];
+  }
+}
+
+/// A corner where the polygon hardly turns: sides that lie along each other, but for a small angle,
+/// cross somewhere in the middle.
+bool isFlatCorner(const Corners& polygon, int i) {
+  if (polygon.count <= 3) return false;
+  const Vector3 in = polygon[i] - polygon[i > 0 ? i - 1 : polygon.count - 1];
+  const Vector3 out = polygon[i + 1 < polygon.count ? i + 1 : 0] - polygon[i];
+  return squaredNorm(cross(in, out)) <
+         kFlatCorner * kFlatCorner * (squaredNorm(in) * squaredNorm(out));
+}
+
+/// Clips the other body's face against a reference face. @param sign +1 if the reference face is
+/// A's, whose normal is that of the manifold, else -1.
+bool faceManifold(const ConvexPolyhedron& reference, const Pose& X_WR, int face,
+                  const ConvexPolyhedron& other, const Pose& X_WO, ContactManifold& manifold,
+                  double band) {
+  const PolyhedronData& data = reference.data();
+  const PolyhedronData::Face& f = data.faces[at(face)];
+  const Vector3 normal = times(X_WR.R_AB, f.normal);
+  const double height = f.offset + dot(normal, X_WR.p_AB);
+  double alignment = 0.0;
+  const int incident = faceAlong(other, X_WO, -normal, alignment);
+  Corners polygon = cornersOf(other, X_WO, incident);
+  for (std::int32_t k = 0; k < f.ring_count && polygon.count > 0; ++k) {
+    const PolyhedronData::RingPlane& side = data.ring[at(f.ring_begin + k)];
+    const Vector3 inward = times(X_WR.R_AB, side.inward);
+    polygon = clipped(polygon, inward, side.offset + dot(inward, X_WR.p_AB));
+  }
+  const double same = kSamePoint * (data.radius + other.data().radius);
+  std::array<ContactPoint, kMaxCorners> points;
+  int count = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    if (isFlatCorner(polygon, i)) continue;
+    const double gap = dot(normal, polygon[i]) - height;
+    if (gap > band) continue;
+    const Vector3 p_WC = polygon[i] - (0.5 * gap) * normal;
+    const auto isSame = [&](const ContactPoint& known) {
+      return squaredNorm(known.p_WC - p_WC) < same * same;
+    };
+    if (std::any_of(points.begin(), points.begin() + count, isSame)) continue;
+    points[static_cast<std::size_t>(count++)] = {p_WC, gap};
+  }
+  if (count == 0) return false;
+  if (count > ContactManifold::kMaxPoints) {
+    reduce(manifold, points.data(), count);
+    return true;
+  }
+  for (int i = 0; i < count; ++i) {
+    manifold.points[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(i)];
+  }
+  manifold.count = count;
+  return true;
+}
+
+/// The edge of a feature that lies most along a direction of W: the edge itself, or one of those of
+/// a vertex; -1 for a face.
+int edgeAlong(const ConvexPolyhedron& body, const Pose& X_WB, Feature feature,
+              const Vector3& direction_W) {
+  if (feature.kind == FeatureKind::kEdge) return feature.index;
+  if (feature.kind == FeatureKind::kFace) return -1;
+  const PolyhedronData& data = body.data();
+  const PolyhedronData::Vertex& vertex = data.vertices[at(feature.index)];
+  const Vector3 direction = transposeTimes(X_WB.R_AB, direction_W);
+  int best = -1;
+  double alignment = -1.0;
+  for (std::int32_t k = 0; k < vertex.fan_count; ++k) {
+    const double along = std::abs(dot(data.fan[at(vertex.fan_begin + k)].direction, direction));
+    if (along <= alignment) continue;
+    alignment = along;
+    best = data.fan_edge[at(vertex.fan_begin + k)] / 2;
+  }
+  return best;
+}
+
+/// The ends of the common part of two parallel edges; false if the closest features do not hold an
+/// edge, or no parallel one beside it.
+bool edgeManifold(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
+                  const Pose& X_WB, const ClosestFeatures& closest, ContactManifold& manifold) {
+  int edge_a = -1;
+  int edge_b = -1;
+  if (closest.feature_a.kind == FeatureKind::kEdge) {
+    edge_a = closest.feature_a.index;
+    edge_b = edgeAlong(B, X_WB, closest.feature_b, times(X_WA.R_AB, A.edge(edge_a).direction));
+  } else if (closest.feature_b.kind == FeatureKind::kEdge) {
+    edge_b = closest.feature_b.index;
+    edge_a = edgeAlong(A, X_WA, closest.feature_a, times(X_WB.R_AB, B.edge(edge_b).direction));
+  }
+  if (edge_a < 0 || edge_b < 0) return false;
+  const PolyhedronData::Edge& a = A.edge(edge_a);
+  const PolyhedronData::Edge& b = B.edge(edge_b);
+  const Vector3 along = times(X_WA.R_AB, a.direction);
+  const Vector3 other = times(X_WB.R_AB, b.direction);
+  if (squaredNorm(cross(along, other)) > kFaceAlignment * kFaceAlignment) return false;
+  const double from_a = dot(along, transform(X_WA, a.p));
+  const double start_b = dot(along, transform(X_WB, b.p));
+  const double end_b = start_b + b.length * dot(along, other);
+  const double low = std::max(from_a, std::min(start_b, end_b));
+  const double high = std::min(from_a + a.length, std::max(start_b, end_b));
+  if (!(high > low)) return false;
+  const Vector3 middle = 0.5 * (closest.p_WCa + closest.p_WCb);
+  const double here = dot(along, middle);
+  manifold.points[0] = {middle + (low - here) * along, closest.distance};
+  manifold.points[1] = {middle + (high - here) * along, closest.distance};
+  manifold.count = 2;
+  return true;
+}
+
+}  // namespace
+
+ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
+                                const ConvexPolyhedron& B, const Pose& X_WB,
+                                const ClosestFeatures& closest, double band) {
+  ContactManifold manifold;
+  manifold.nhat_AB_W = closest.nhat_AB_W;
+  const double aligned = 1.0 - 0.5 * kFaceAlignment * kFaceAlignment;
+  double along_A = 0.0;
+  double along_B = 0.0;
+  const int face_A = faceAlong(A, X_WA, closest.nhat_AB_W, along_A);
+  const int face_B = faceAlong(B, X_WB, -closest.nhat_AB_W, along_B);
+  if (along_A >= aligned && along_A >= along_B) {
+    manifold.nhat_AB_W = times(X_WA.R_AB, A.face(face_A).normal);
+    manifold.face_owner = 0;
+    if (faceManifold(A, X_WA, face_A, B, X_WB, manifold, band)) return manifold;
+  } else if (along_B >= aligned) {
+    manifold.nhat_AB_W = -times(X_WB.R_AB, B.face(face_B).normal);
+    manifold.face_owner = 1;
+    if (faceManifold(B, X_WB, face_B, A, X_WA, manifold, band)) return manifold;
+  } else if (edgeManifold(A, X_WA, B, X_WB, closest, manifold)) {
+    return manifold;
+  }
+  manifold.nhat_AB_W = closest.nhat_AB_W;
+  manifold.face_owner = -1;
+  manifold.points[0] = {0.5 * (closest.p_WCa + closest.p_WCb), closest.distance};
+  manifold.count = 1;
+  return manifold;
+}
+
+}  // namespace hovercraft

@@ -1,0 +1,38 @@
+#include "hovercraft_sim/sim/contacts_csv.h"
+
+#include <cstddef>
+#include <fmt/format.h>
+#include <utility>
+
+namespace hovercraft {
+namespace {
+
+std::string columns(const Vector3& v) {
+  return fmt::format("{:.17g},{:.17g},{:.17g}", v.x(), v.y(), v.z());
+}
+
+}  // namespace
+
+const char* const kContactKindNames[3] = {"bounce", "stick", "rest"};
+
+ContactsCsvWriter::ContactsCsvWriter(const std::string& path, std::unique_ptr<StateSink> next)
+    : file_(path), next_(std::move(next)) {
+  const std::string header = "time,kind,a,b,x,y,z,nx,ny,nz,jx,jy,jz\n";
+  file_.write(header.data(), header.size());
+}
+
+void ContactsCsvWriter::contact(const ContactEvent& event) {
+  const std::string row =
+      fmt::format("{:.17g},{},{},{},{},{},{}\n", event.time,
+                  kContactKindNames[static_cast<std::size_t>(event.kind)], event.a, event.b,
+                  columns(event.p_WC), columns(event.nhat_AB_W), columns(event.impulse_B_W));
+  file_.write(row.data(), row.size());
+  next_->contact(event);
+}
+
+void ContactsCsvWriter::close() {
+  file_.close();
+  next_->close();
+}
+
+}  // namespace hovercraft

@@ -1,0 +1,175 @@
+#include "hovercraft_sim/sim/world_builder.h"
+
+#include <algorithm>
+#include <array>
+
+#include "hovercraft_sim/geometry/convex_hull.h"
+#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/math/rotation.h"
+
+namespace hovercraft {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586476925286766559;
+constexpr int kRoundSides = 24;
+constexpr int kBallHalvings = 2;  // of the edges of an icosahedron: 12, 42, 162 vertices
+
+std::vector<Vector3> boxPoints(const Vector3& size) {
+  std::vector<Vector3> points;
+  for (const double z : {-0.5, 0.5}) {
+    for (const double y : {-0.5, 0.5}) {
+      for (const double x : {-0.5, 0.5}) {
+        points.emplace_back(x * size.x(), y * size.y(), z * size.z());
+      }
+    }
+  }
+  return points;
+}
+
+std::vector<Vector3> circle(double radius, double z) {
+  std::vector<Vector3> points;
+  for (int i = 0; i < kRoundSides; ++i) {
+    const double angle = kTwoPi * i / kRoundSides;
+    points.emplace_back(radius * exactCos(angle), radius * exactSin(angle), z);
+  }
+  return points;
+}
+
+std::vector<Vector3> cylinderPoints(const CylinderShape& cylinder) {
+  std::vector<Vector3> points = circle(cylinder.radius, -0.5 * cylinder.length);
+  for (const Vector3& p : circle(cylinder.radius, 0.5 * cylinder.length)) points.push_back(p);
+  return points;
+}
+
+/// The vertices of an icosahedron and, twice over, the middles of the edges, on the sphere. Two of
+/// its vertices are joined if they are nearest: that is how edges are told.
+std::vector<Vector3> ballPoints(double radius) {
+  const double golden = 0.5 * (1.0 + std::sqrt(5.0));
+  std::vector<Vector3> points;
+  for (const double a : {-1.0, 1.0}) {
+    for (const double b : {-golden, golden}) {
+      points.emplace_back(0.0, a, b);
+      points.emplace_back(a, b, 0.0);
+      points.emplace_back(b, 0.0, a);
+    }
+  }
+  for (Vector3& p : points) p = p / norm(p);
+  double reach = 1.2;  // longer than an edge, 1.05, shorter than the next distance, 1.70
+  for (int halving = 0; halving < kBallHalvings; ++halving) {
+    const std::size_t count = points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = i + 1; j < count; ++j) {
+        if (norm(points[i] - points[j]) > reach) continue;
+        const Vector3 middle = points[i] + points[j];
+        points.push_back(middle / norm(middle));
+      }
+    }
+    reach = 0.7;  // edges are 0.55 and 0.62 then, other distances 1 and more
+  }
+  for (Vector3& p : points) p = radius * p;
+  return points;
+}
+
+struct HullCorners {
+  std::vector<Vector3> operator()(const BoxShape& box) const { return boxPoints(box.size); }
+  std::vector<Vector3> operator()(const SphereShape& ball) const { return ballPoints(ball.radius); }
+  std::vector<Vector3> operator()(const CylinderShape& cylinder) const {
+    return cylinderPoints(cylinder);
+  }
+  std::vector<Vector3> operator()(const PointsShape& cloud) const { return cloud.points; }
+  std::vector<Vector3> operator()(const ConeShape& cone) const {
+    std::vector<Vector3> points = circle(cone.radius, -0.5 * cone.length);
+    points.emplace_back(0.0, 0.0, 0.5 * cone.length);
+    return points;
+  }
+  std::vector<Vector3> operator()(const MeshShape& mesh) const {
+    return loadTriangleMesh(mesh.file).vertices;
+  }
+};
+
+std::vector<Vector3> placedPoints(std::vector<Vector3> points, const Vector3& p,
+                                  const Vector3& rpy) {
+  const Matrix3 R = rotationFromRpy(rpy);
+  for (Vector3& point : points) point = times(R, point) + p;
+  return points;
+}
+
+}  // namespace
+
+std::vector<Vector3> hullPoints(const HullScenario& hull) {
+  return placedPoints(std::visit(HullCorners(), hull.shape), hull.p_HS, hull.rpy);
+}
+
+std::vector<Vector3> partPoints(const std::vector<PartScenario>& parts) {
+  std::vector<Vector3> all;
+  for (const PartScenario& part : parts) {
+    const auto points = placedPoints(std::visit(HullCorners(), part.shape), part.p_HP, part.rpy);
+    all.insert(all.end(), points.begin(), points.end());
+  }
+  return all;
+}
+
+ConvexPolyhedron hullOf(const VehicleScenario& vehicle) {
+  std::vector<Vector3> points =
+      vehicle.hull ? hullPoints(*vehicle.hull) : partPoints(vehicle.parts);
+  for (Vector3& p : points) p -= vehicle.mass_properties.p_HB;
+  return convexHull(points, vehicle.name + ": hull");
+}
+
+HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle) {
+  const MassProperties& body = vehicle.mass_properties;
+  const Mobility mobility = scenario.model == BodyModel::kPlanar
+                                ? Mobility::planar(body.mass, body.I_BBo_B)
+                                : Mobility::spatial(body.mass, body.I_BBo_B);
+  return {mobility, EngineGeometry(vehicle.engines, body.p_HB), vehicle.drag,
+          body.mass * scenario.gravity, scenario.wind};
+}
+
+BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
+                       const Mobility& mobility) {
+  const Twist twist = {vehicle.initial_v_WB, vehicle.initial_w_WB};
+  if (scenario.orientation == OrientationKind::kQuaternion) {
+    return mobility.stateOfMotion(vehicle.initial_p_WB, quaternionFromRpy(vehicle.initial_rpy),
+                                  twist);
+  }
+  return mobility.stateOfMotion(vehicle.initial_p_WB, rotationFromRpy(vehicle.initial_rpy), twist);
+}
+
+World worldOf(const Scenario& scenario) {
+  const WorldScenario& world = *scenario.world;
+  WorldRules rules;
+  rules.integrator = scenario.integrator;
+  rules.step = scenario.stepSize();
+  rules.tolerance = world.tolerance;
+  rules.rest_speed = world.rest_speed;
+  const std::size_t count = world.materials.size();
+  rules.material_count = static_cast<int>(count);
+  rules.pairs.clear();
+  for (const MaterialScenario& a : world.materials) {
+    for (const MaterialScenario& b : world.materials) {
+      rules.pairs.push_back(combined(a.surface, b.surface));
+    }
+  }
+  for (const MaterialPairScenario& pair : world.material_pairs) {
+    rules.pairs[pair.first * count + pair.second] = pair.law;
+    rules.pairs[pair.second * count + pair.first] = pair.law;
+  }
+  std::vector<WorldBody> bodies;
+  for (const auto* list : {&scenario.vehicles, &world.bodies}) {
+    for (const VehicleScenario& body : *list) {
+      bodies.push_back(
+          {body.name, modelOf(scenario, body), hullOf(body), static_cast<int>(body.material)});
+    }
+  }
+  std::vector<WorldObstacle> obstacles;
+  for (const ObstacleScenario& obstacle : world.obstacles) {
+    const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
+    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
+    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
+                         static_cast<int>(obstacle.material)});
+  }
+  return {std::move(rules), std::move(bodies), std::move(obstacles)};
+}
+
+}  // namespace hovercraft

@@ -1,0 +1,279 @@
+#include "hovercraft_sim/sim/world_parser.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+#include "hovercraft_sim/geometry/convex_hull.h"
+#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/sim/scenario_names.h"
+#include "hovercraft_sim/sim/world_builder.h"
+
+namespace hovercraft {
+namespace {
+
+const NumberRule kShare = {[](double x) { return x >= 0.0 && x <= 1.0; }, "must be from 0 to 1"};
+
+ContactMaterial parseSurface(const ConfigReader& reader) {
+  ContactMaterial surface;
+  surface.restitution = reader.numberOr(0.0, "restitution", kShare);
+  surface.friction = reader.numberOr(0.0, "friction", kNotNegative);
+  surface.stick = reader.flagOr(false, "stick");
+  return surface;
+}
+
+std::vector<std::string> namesOf(const std::vector<MaterialScenario>& materials) {
+  std::vector<std::string> names;
+  for (const MaterialScenario& material : materials) names.push_back(material.name);
+  return names;
+}
+
+void parseMaterials(const ConfigReader& reader, WorldScenario& world) {
+  if (reader.has("materials")) {
+    for (const auto& [name, material] : reader.map("materials").maps()) {
+      material.allowOnly({"restitution", "friction", "stick"});
+      if (name == "default") {
+        world.materials[0].surface = parseSurface(material);
+      } else {
+        world.materials.push_back({name, parseSurface(material)});
+      }
+    }
+  }
+  if (!reader.has("material_pairs")) return;
+  const std::vector<std::string> names = namesOf(world.materials);
+  for (const ConfigReader& pair : reader.list("material_pairs")) {
+    pair.allowOnly({"first", "second", "restitution", "friction", "stick"});
+    pair.text("first");  // must be there
+    pair.text("second");
+    world.material_pairs.push_back(
+        {pair.choiceOr(0, "first", names), pair.choiceOr(0, "second", names), parseSurface(pair)});
+  }
+}
+
+/// The corners of the convex hull of points, in their order.
+PointsShape cornersOf(const ConvexPolyhedron& body) {
+  PointsShape shape;
+  for (int i = 0; i < body.vertexCount(); ++i) shape.points.push_back(body.vertex(i));
+  return shape;
+}
+
+PointsShape parseMesh(const ConfigReader& reader, const ScenarioSource& source) {
+  reader.allowOnly({"file"});
+  const std::string path = meshPath(reader, source);
+  try {
+    return cornersOf(polyhedronFromMesh(loadTriangleMesh(path), NonConvexMesh::kTakeHull, path));
+  } catch (const std::invalid_argument& error) {
+    reader.fail("file", error.what());
+  }
+}
+
+PointsShape parsePoints(const ConfigReader& reader) {
+  PointsShape shape;
+  for (const ConfigReader& point : reader.list("points")) {
+    point.allowOnly({"p"});
+    shape.points.push_back(point.vector("p"));
+  }
+  return shape;
+}
+
+/// One of box, cylinder, sphere, mesh, points of a map, and where it is.
+HullScenario parseHull(const ConfigReader& reader, const ScenarioSource& source) {
+  int shapes = 0;
+  for (const char* key : {"box", "cylinder", "sphere", "mesh", "points"}) {
+    if (reader.has(key)) ++shapes;
+  }
+  if (shapes != 1) reader.fail("", "must have one of box, cylinder, sphere, mesh, points");
+  HullScenario hull;
+  if (reader.has("box")) {
+    const ConfigReader box = reader.map("box");
+    box.allowOnly({"size"});
+    hull.shape = BoxShape{box.vector("size", kPositive)};
+  } else if (reader.has("sphere")) {
+    const ConfigReader sphere = reader.map("sphere");
+    sphere.allowOnly({"radius"});
+    hull.shape = SphereShape{sphere.number("radius", kPositive)};
+  } else if (reader.has("cylinder")) {
+    const ConfigReader cylinder = reader.map("cylinder");
+    cylinder.allowOnly({"radius", "length"});
+    hull.shape =
+        CylinderShape{cylinder.number("radius", kPositive), cylinder.number("length", kPositive)};
+  } else if (reader.has("mesh")) {
+    hull.shape = parseMesh(reader.map("mesh"), source);
+  } else {
+    hull.shape = parsePoints(reader);
+  }
+  hull.p_HS = reader.vectorOr(Vector3::Zero(), "position");
+  hull.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
+  try {
+    convexHull(hullPoints(hull), "hull");
+  } catch (const std::invalid_argument& error) {
+    reader.fail("", error.what());
+  }
+  return hull;
+}
+
+/// Hull and material of a craft or a loose body.
+void parseSurfaceOf(const ConfigReader& reader, const ScenarioSource& source,
+                    const WorldScenario& world, VehicleScenario& body) {
+  body.material = reader.choiceOr(0, "material", namesOf(world.materials));
+  if (reader.has("hull")) {
+    const ConfigReader hull = reader.map("hull");
+    hull.allowOnly({"box", "cylinder", "sphere", "mesh", "points", "position", "rpy"});
+    body.hull = parseHull(hull, source);
+    return;
+  }
+  if (body.parts.empty()) {
+    reader.fail("hull", "is missing: in a scenario with a world a body has parts or a hull");
+  }
+  const bool has_mesh = std::any_of(body.parts.begin(), body.parts.end(), [](const auto& part) {
+    return std::holds_alternative<MeshShape>(part.shape);
+  });
+  if (!has_mesh) return;
+  // Like its mass, the hull of a mesh is written by numbers, so that the text needs no other file.
+  HullScenario hull;
+  hull.shape = cornersOf(convexHull(partPoints(body.parts), reader.where("parts")));
+  body.hull = hull;
+}
+
+void requireName(const ConfigReader& reader, const std::string& name) {
+  if (!isGraphName(name)) {
+    reader.fail("", "a name is a ROS name: a letter, then letters, digits and _");
+  }
+}
+
+void checkNames(const ConfigReader& reader, const Scenario& scenario) {
+  std::vector<std::string> names;
+  for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  for (const VehicleScenario& body : scenario.world->bodies) names.push_back(body.name);
+  for (const ObstacleScenario& obstacle : scenario.world->obstacles) names.push_back(obstacle.name);
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end()) {
+    reader.fail(
+        "", fmt::format("the name {} stands twice among vehicles, bodies and obstacles", *twice));
+  }
+}
+
+void checkStart(const ConfigReader& reader, const Scenario& scenario) {
+  const World world = worldOf(scenario);
+  std::vector<BodyState> states;
+  for (const auto* list : {&scenario.vehicles, &scenario.world->bodies}) {
+    for (const VehicleScenario& body : *list) {
+      states.push_back(initialState(scenario, body, modelOf(scenario, body).mobility));
+    }
+  }
+  const auto overlap = world.overlap(states);
+  if (!overlap) return;
+  reader.fail("", fmt::format("{} and {} overlap at the start by {:.3g} m: must be at most the "
+                              "tolerance, {:.3g} m",
+                              overlap->a, overlap->b, overlap->depth, scenario.world->tolerance));
+}
+
+std::string vectorText(const Vector3& v) {
+  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
+}
+
+struct HullWriter {
+  std::string operator()(const BoxShape& box) const {
+    return fmt::format("box: {{size: {}}}", vectorText(box.size));
+  }
+  std::string operator()(const SphereShape& sphere) const {
+    return fmt::format("sphere: {{radius: {:.17g}}}", sphere.radius);
+  }
+  std::string operator()(const CylinderShape& cylinder) const {
+    return fmt::format("cylinder: {{radius: {:.17g}, length: {:.17g}}}", cylinder.radius,
+                       cylinder.length);
+  }
+  std::string operator()(const PointsShape& cloud) const {
+    std::string text = "points: [";
+    for (const Vector3& p : cloud.points) {
+      text += fmt::format("{}{{p: {}}}", text.back() == '[' ? "" : ", ", vectorText(p));
+    }
+    return text + "]";
+  }
+};
+
+std::string hullText(const HullScenario& hull) {
+  return fmt::format("{}, position: {}, rpy: {}", std::visit(HullWriter(), hull.shape),
+                     vectorText(hull.p_HS), vectorText(hull.rpy));
+}
+
+std::string surfaceText(const ContactMaterial& surface) {
+  return fmt::format("restitution: {:.17g}, friction: {:.17g}, stick: {}", surface.restitution,
+                     surface.friction, surface.stick ? "true" : "false");
+}
+
+}  // namespace
+
+void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario& scenario) {
+  const ConfigReader vehicles = top.map("vehicles");
+  if (!top.has("world")) {
+    for (const auto& [name, vehicle] : vehicles.maps()) {
+      for (const char* key : {"hull", "material"}) {
+        if (vehicle.has(key)) vehicle.fail(key, "needs a world: in the scenario");
+      }
+    }
+    return;
+  }
+  const ConfigReader reader = top.map("world");
+  reader.allowOnly(
+      {"tolerance", "rest_speed", "materials", "material_pairs", "obstacles", "bodies"});
+  WorldScenario& world = scenario.world.emplace();
+  world.tolerance = reader.numberOr(world.tolerance, "tolerance", kPositive);
+  world.rest_speed = reader.numberOr(world.rest_speed, "rest_speed", kNotNegative);
+  parseMaterials(reader, world);
+  for (VehicleScenario& vehicle : scenario.vehicles) {
+    parseSurfaceOf(vehicles.map(vehicle.name), source, world, vehicle);
+  }
+  if (reader.has("obstacles")) {
+    for (const auto& [name, obstacle] : reader.map("obstacles").maps()) {
+      requireName(obstacle, name);
+      obstacle.allowOnly(
+          {"box", "cylinder", "sphere", "mesh", "points", "position", "rpy", "material"});
+      world.obstacles.push_back({name, parseHull(obstacle, source),
+                                 obstacle.choiceOr(0, "material", namesOf(world.materials))});
+    }
+  }
+  if (reader.has("bodies")) {
+    for (const auto& [name, body] : reader.map("bodies").maps()) {
+      body.allowOnly(
+          {"mass", "inertia", "center_of_mass", "parts", "drag", "hull", "material", "initial"});
+      world.bodies.push_back(parseMovingBody(name, body, source, scenario.model));
+      parseSurfaceOf(body, source, world, world.bodies.back());
+    }
+  }
+  checkNames(reader, scenario);
+  checkStart(reader, scenario);
+}
+
+std::string surfaceYaml(const VehicleScenario& vehicle, const Scenario& scenario) {
+  if (!scenario.world) return "";
+  std::string yaml =
+      fmt::format("    material: {}\n", scenario.world->materials[vehicle.material].name);
+  if (vehicle.hull) yaml += fmt::format("    hull: {{{}}}\n", hullText(*vehicle.hull));
+  return yaml;
+}
+
+std::string worldYaml(const Scenario& scenario) {
+  if (!scenario.world) return "";
+  const WorldScenario& world = *scenario.world;
+  std::string yaml =
+      fmt::format("world:\n  tolerance: {:.17g}\n  rest_speed: {:.17g}\n  materials:\n",
+                  world.tolerance, world.rest_speed);
+  for (const MaterialScenario& material : world.materials) {
+    yaml += fmt::format("    {}: {{{}}}\n", material.name, surfaceText(material.surface));
+  }
+  if (!world.material_pairs.empty()) yaml += "  material_pairs:\n";
+  for (const MaterialPairScenario& pair : world.material_pairs) {
+    yaml += fmt::format("    - {{first: {}, second: {}, {}}}\n", world.materials[pair.first].name,
+                        world.materials[pair.second].name, surfaceText(pair.law));
+  }
+  if (!world.obstacles.empty()) yaml += "  obstacles:\n";
+  for (const ObstacleScenario& obstacle : world.obstacles) {
+    yaml += fmt::format("    {}: {{{}, material: {}}}\n", obstacle.name, hullText(obstacle.hull),
+                        world.materials[obstacle.material].name);
+  }
+  return yaml;
+}
+
+}  // namespace hovercraft

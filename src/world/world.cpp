@@ -1,0 +1,329 @@
+#include "hovercraft_sim/world/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/tolerances.h"
+
+namespace hovercraft {
+namespace {
+
+AxisAlignedBox boundsOf(const ConvexPolyhedron& hull, const Pose& pose) {
+  AxisAlignedBox box;
+  box.low = box.high = transform(pose, hull.vertex(0));
+  for (int i = 1; i < hull.vertexCount(); ++i) {
+    const Vector3 p = transform(pose, hull.vertex(i));
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+bool holds(const AxisAlignedBox& outer, const AxisAlignedBox& inner) {
+  return outer.low.x() <= inner.low.x() && inner.high.x() <= outer.high.x() &&
+         outer.low.y() <= inner.low.y() && inner.high.y() <= outer.high.y() &&
+         outer.low.z() <= inner.low.z() && inner.high.z() <= outer.high.z();
+}
+
+const Vector3& positionOf(const BodyState& state) {
+  return std::visit([](const auto& body) -> const Vector3& { return body.p_WB; }, state);
+}
+
+/// Neighbours are looked for this much farther than a body's own size (-), and ten steps ahead: so
+/// seldom that the search costs nothing, so near that few of them come to nothing.
+constexpr double kRoom = 0.25;
+constexpr double kStepsAhead = 10.0;
+
+/// A body whose points came farther than `travel` allows is given twice what it took.
+constexpr double kTravelReserve = 2.0;
+
+/// Bound on how often a step is begun anew with more travel: each time it at least doubles.
+constexpr int kMaxRestarts = 20;
+
+/// Bound on the sweeps of partTouching(): the height of a stack squared, for fifty bodies.
+constexpr int kMaxPartingSweeps = 2500;
+
+}  // namespace
+
+World::World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
+    : rules_(std::move(rules)), bodies_(std::move(bodies)), obstacles_(std::move(obstacles)) {
+  demand(rules_.step > 0.0 && rules_.tolerance > 0.0, "a world needs a step and a tolerance");
+  demand(rules_.pairs.size() ==
+             static_cast<std::size_t>(rules_.material_count * rules_.material_count),
+         "a world needs a law for each pair of materials");
+  for (const WorldBody& body : bodies_) {
+    Extent extent;
+    const AxisAlignedBox box = boundsOf(body.hull, Pose());
+    extent.center_B = 0.5 * (box.low + box.high);
+    extent.half_B = 0.5 * (box.high - box.low);
+    extent.radius = body.hull.data().radius;
+    const Matrix3 inverse_inertia = body.model.mobility.inverseInertia(Matrix3::Identity());
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) sum += inverse_inertia(i, j) * inverse_inertia(i, j);
+    }
+    extent.spin_per_L = std::sqrt(sum);
+    extents_.push_back(extent);
+  }
+  for (const WorldObstacle& obstacle : obstacles_) {
+    obstacle_boxes_.push_back(boundsOf(obstacle.hull, obstacle.X_WO));
+  }
+}
+
+const std::string& World::nameOf(std::int32_t index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return isFixed(index) ? obstacles_[i - bodies_.size()].name : bodies_[i].name;
+}
+
+const ConvexPolyhedron& World::hullOf(std::int32_t index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return isFixed(index) ? obstacles_[i - bodies_.size()].hull : bodies_[i].hull;
+}
+
+int World::materialOf(std::int32_t index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return isFixed(index) ? obstacles_[i - bodies_.size()].material : bodies_[i].material;
+}
+
+Pose World::poseIn(const std::vector<BodyState>& states, std::int32_t index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return isFixed(index) ? obstacles_[i - bodies_.size()].X_WO : poseOf(states[i]);
+}
+
+/// Bound on the way of a body's points between two states of a piece of h seconds, m: straight,
+/// curved, and turned.
+double World::travelOf(std::size_t body, const BodyState& from, const BodyState& to,
+                       double h) const {
+  const Extent& extent = extents_[body];
+  const Mobility& mobility = bodies_[body].model.mobility;
+  return std::visit(
+      [&](const auto& a) {
+        const auto& b = std::get<std::decay_t<decltype(a)>>(to);
+        const double bend = norm(mobility.velocity(b.momentum_W - a.momentum_W)) * h;
+        const double spin =
+            extent.spin_per_L * std::max(norm(a.angular_momentum_W), norm(b.angular_momentum_W));
+        return norm(b.p_WB - a.p_WB) + bend + spin * h * extent.radius;
+      },
+      from);
+}
+
+AxisAlignedBox World::boxOf(std::size_t body, const Pose& pose, double margin) const {
+  const Extent& extent = extents_[body];
+  const Vector3 center = transform(pose, extent.center_B);
+  const Vector3 half = times(pose.R_AB.cwiseAbs(), extent.half_B) + Vector3::Constant(margin);
+  return {center - half, center + half};
+}
+
+/// Brings the list of neighbours up to date. @returns whether there are any.
+bool World::findNeighbours(const std::vector<BodyState>& states) {
+  const std::size_t count = bodies_.size();
+  bool inside = knows_neighbours_;
+  for (std::size_t i = 0; i < count && inside; ++i) {
+    const double reach = extents_[i].radius + extents_[i].travel;
+    const Vector3& p = positionOf(states[i]);
+    const Vector3 around = Vector3::Constant(reach);
+    inside = holds(extents_[i].roomy, {p - around, p + around});
+  }
+  if (inside) return !neighbours_.empty();
+  neighbours_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double reach = (1.0 + kRoom) * extents_[i].radius + kStepsAhead * extents_[i].travel;
+    const Vector3& p = positionOf(states[i]);
+    const Vector3 around = Vector3::Constant(reach);
+    extents_[i].roomy = {p - around, p + around};
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = i + 1; j < count; ++j) {
+      if (!extents_[i].roomy.overlaps(extents_[j].roomy)) continue;
+      neighbours_.emplace_back(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+    }
+    for (std::size_t j = 0; j < obstacles_.size(); ++j) {
+      if (!extents_[i].roomy.overlaps(obstacle_boxes_[j])) continue;
+      neighbours_.emplace_back(static_cast<std::int32_t>(i), static_cast<std::int32_t>(count + j));
+    }
+  }
+  knows_neighbours_ = true;
+  return !neighbours_.empty();
+}
+
+/// The pairs whose boxes, as far as their bodies can travel, overlap.
+void World::findNearPairs(const std::vector<BodyState>& states) {
+  near_.clear();
+  if (!findNeighbours(states)) return;
+  boxes_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    boxes_[i] = boxOf(i, poseOf(states[i]), extents_[i].travel + rules_.tolerance);
+  }
+  for (const Pair& pair : neighbours_) {
+    const auto b = static_cast<std::size_t>(pair.second);
+    const AxisAlignedBox& other =
+        isFixed(pair.second) ? obstacle_boxes_[b - bodies_.size()] : boxes_[b];
+    if (boxes_[static_cast<std::size_t>(pair.first)].overlaps(other)) near_.push_back(pair);
+  }
+}
+
+/// Bodies that are near each other, directly or through others, get the least index among them.
+void World::collectGroups() {
+  group_.resize(bodies_.size());
+  for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = static_cast<std::int32_t>(i);
+  const auto root = [this](std::int32_t i) {
+    while (group_[static_cast<std::size_t>(i)] != i) i = group_[static_cast<std::size_t>(i)];
+    return i;
+  };
+  for (const Pair& pair : near_) {
+    if (isFixed(pair.second)) continue;
+    const std::int32_t a = root(pair.first);
+    const std::int32_t b = root(pair.second);
+    group_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = root(static_cast<std::int32_t>(i));
+}
+
+/// Steps each group with a near pair. @returns false if a body came farther than its travel: the
+/// step must begin anew, with more of it.
+bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<BodyState>& states,
+                       const std::vector<ContactMemory>& memory,
+                       std::vector<ContactRecord>& records) {
+  next_memory_.clear();
+  bool enough = true;
+  for (std::size_t first = 0; first < bodies_.size(); ++first) {
+    if (group_[first] != static_cast<std::int32_t>(first)) continue;
+    group_pairs_.clear();
+    for (const Pair& pair : near_) {
+      if (group_[static_cast<std::size_t>(pair.first)] == group_[first])
+        group_pairs_.push_back(pair);
+    }
+    if (group_pairs_.empty()) continue;
+    group_bodies_.clear();
+    for (std::size_t i = first; i < bodies_.size(); ++i) {
+      if (group_[i] == group_[first]) group_bodies_.push_back(static_cast<std::int32_t>(i));
+    }
+    Island island(*this, drives, scratch_, records);
+    island.begin(group_bodies_, group_pairs_, states, memory);
+    if (!island.run()) ++stalls_;
+    for (const IslandMember& member : scratch_.members) {
+      const auto i = static_cast<std::size_t>(member.index);
+      ends_[i] = member.state;
+      if (member.travelled <= extents_[i].travel) continue;
+      extents_[i].travel = kTravelReserve * member.travelled;
+      enough = false;
+    }
+    for (const IslandLink& link : scratch_.links) next_memory_.push_back(link.memory);
+  }
+  return enough;
+}
+
+void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
+                 std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records) {
+  ends_.resize(bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyDrive& drive = drives[i];
+    const DrivenHovercraft system = {bodies_[i].model, drive.thrusts,
+                                     drive.is_pushed ? &drive.load : nullptr};
+    ends_[i] = std::visit(
+        [&](const auto& body) -> BodyState {
+          return integrationStep(rules_.integrator, body, system, rules_.step);
+        },
+        states[i]);
+    extents_[i].travel = kTravelReserve * travelOf(i, states[i], ends_[i], rules_.step);
+  }
+  const std::size_t recorded = records.size();
+  for (int attempt = 0; attempt < kMaxRestarts; ++attempt) {
+    findNearPairs(states);
+    if (near_.empty()) {
+      memory.clear();
+      break;
+    }
+    collectGroups();
+    records.resize(recorded);
+    if (!stepGroups(drives, states, memory, records)) continue;
+    std::sort(next_memory_.begin(), next_memory_.end(),
+              [](const ContactMemory& x, const ContactMemory& y) {
+                return x.a < y.a || (x.a == y.a && x.b < y.b);
+              });
+    memory.swap(next_memory_);
+    break;
+  }
+  states.swap(ends_);
+}
+
+std::vector<World::Pair> World::allPairs(int body) const {
+  std::vector<Pair> pairs;
+  const auto count = static_cast<std::int32_t>(bodies_.size());
+  const auto all = static_cast<std::int32_t>(bodies_.size() + obstacles_.size());
+  for (std::int32_t a = 0; a < count; ++a) {
+    for (std::int32_t b = a + 1; b < all; ++b) {
+      if (body < 0 || a == body || b == body) pairs.emplace_back(a, b);
+    }
+  }
+  return pairs;
+}
+
+double World::leastGap(const std::vector<BodyState>& states) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Pair& pair : allPairs(-1)) {
+    FeaturePair features;
+    least =
+        std::min(least, closestFeatures(hullOf(pair.first), poseIn(states, pair.first),
+                                        hullOf(pair.second), poseIn(states, pair.second), features)
+                            .distance);
+  }
+  return least;
+}
+
+std::optional<WorldOverlap> World::overlap(const std::vector<BodyState>& states, int body) const {
+  std::optional<WorldOverlap> worst;
+  for (const Pair& pair : allPairs(body)) {
+    FeaturePair features;
+    const double depth =
+        -closestFeatures(hullOf(pair.first), poseIn(states, pair.first), hullOf(pair.second),
+                         poseIn(states, pair.second), features)
+             .distance;
+    if (depth <= rules_.tolerance || (worst && depth <= worst->depth)) continue;
+    worst = WorldOverlap{nameOf(pair.first), nameOf(pair.second), depth};
+  }
+  return worst;
+}
+
+void World::partTouching(std::vector<BodyState>& states, int body) const {
+  const double wanted = kRestGap * rules_.tolerance;
+  std::vector<Pair> pairs;
+  for (const Pair& pair : allPairs(body)) {
+    FeaturePair features;
+    const double gap = closestFeatures(hullOf(pair.first), poseIn(states, pair.first),
+                                       hullOf(pair.second), poseIn(states, pair.second), features)
+                           .distance;
+    if (gap < kLostContact * rules_.tolerance) pairs.push_back(pair);
+  }
+  const auto move = [&](std::int32_t index, const Vector3& by) {
+    if (isFixed(index)) return;
+    std::visit([&](auto& state) { state.p_WB += by; }, states[static_cast<std::size_t>(index)]);
+  };
+  const auto inverseMass = [&](std::int32_t index) {
+    if (isFixed(index) || (body >= 0 && index != body)) return Vector3(Vector3::Zero());
+    return bodies_[static_cast<std::size_t>(index)].model.mobility.inverseMass();
+  };
+  bool moved = true;
+  for (int sweep = 0; sweep < kMaxPartingSweeps && moved; ++sweep) {
+    moved = false;
+    for (const Pair& pair : pairs) {
+      FeaturePair features;
+      const ClosestFeatures closest =
+          closestFeatures(hullOf(pair.first), poseIn(states, pair.first), hullOf(pair.second),
+                          poseIn(states, pair.second), features);
+      if (closest.distance >= 0.9 * wanted) continue;
+      const Vector3 way_a = inverseMass(pair.first).cwiseProduct(closest.nhat_AB_W);
+      const Vector3 way_b = inverseMass(pair.second).cwiseProduct(closest.nhat_AB_W);
+      const double share = dot(closest.nhat_AB_W, Vector3(way_a + way_b));
+      if (!(share > 0.0)) continue;
+      const double by = (wanted - closest.distance) / share;
+      move(pair.first, -by * way_a);
+      move(pair.second, by * way_b);
+      moved = true;
+    }
+  }
+}
+
+}  // namespace hovercraft

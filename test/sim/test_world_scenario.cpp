@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/simulation.h"
+#include "hovercraft_sim/sim/snapshot.h"
+
+#include "../support/scenario_text.h"
+#include "../support/scenarios.h"
+
+namespace hovercraft {
+namespace {
+
+using testing::complaintAbout;
+using testing::craftYaml;
+using testing::parsed;
+using testing::with;
+
+/// Two crates before a wall and a craft that comes at them; each line can be replaced by with().
+std::string worldText() {
+  return "step_size: 0.01\nmodel: planar\nvehicles:\n" + craftYaml("craft") +
+         R"(    hull: {box: {size: [0.4, 0.4, 0.2]}}
+    material: wood
+    initial: {position: [-1, 0, 0], velocity: [1, 0, 0]}
+world:
+  tolerance: 2e-6
+  rest_speed: 0.02
+  materials:
+    wood: {restitution: 0.5, friction: 0.25}
+    ice: {restitution: 0.9}
+  material_pairs:
+    - {first: wood, second: ice, restitution: 0.75, friction: 0.125}
+  obstacles:
+    wall: {box: {size: [0.2, 4, 1]}, position: [2, 0, 0], rpy: [0, 0, 0.1], material: ice}
+  bodies:
+    crate: {parts: [{box: {size: [0.3, 0.3, 0.3]}, mass: 1}], material: wood}
+    drum: {mass: 1, inertia: {ixx: 0.01, iyy: 0.01, izz: 0.01}, hull: {cylinder: {radius: 0.2, length: 0.3}}, initial: {position: [1, 0.1, 0]}}
+)";
+}
+
+TEST(WorldScenario, WrittenAndReadAgainItIsTheSame) {
+  const Scenario scenario = parsed(worldText());
+  const std::string yaml = toYaml(scenario);
+  EXPECT_EQ(toYaml(parsed(yaml)), yaml);
+  Simulation a(scenario);
+  Simulation b(parsed(yaml));
+  for (int i = 0; i < 300; ++i) {
+    a.step();
+    b.step();
+  }
+  EXPECT_EQ(a.hash(), b.hash());
+}
+
+TEST(WorldScenario, TheOrderInWhichBodiesAreNamedDoesNotMatter) {
+  const std::string text = worldText();
+  const std::size_t crate = text.find("    crate:");
+  const std::size_t drum = text.find("    drum:");
+  const std::string swapped =
+      text.substr(0, crate) + text.substr(drum) + text.substr(crate, drum - crate);
+  Simulation a(parsed(text));
+  Simulation b(parsed(swapped));
+  for (int i = 0; i < 300; ++i) {
+    a.step();
+    b.step();
+  }
+  EXPECT_EQ(a.hash(), b.hash());
+}
+
+TEST(WorldScenario, AMeshIsWrittenByItsCorners) {
+  const std::string text = with(worldText(), "hull: {box: {size: [0.4, 0.4, 0.2]}}",
+                                "hull: {mesh: {file: cube.obj}, position: [-3, 0, 0]}");
+  const std::string yaml = toYaml(parsed(text));
+  EXPECT_NE(yaml.find("points: [{p: "), std::string::npos);
+  EXPECT_EQ(toYaml(parsed(yaml)), yaml);
+}
+
+TEST(WorldScenario, WhatIsWrongIsSaidOnOneLine) {
+  const std::string text = worldText();
+  EXPECT_EQ(complaintAbout(with(text, "tolerance: 2e-6", "tolerance: 0")),
+            "test.yaml: world.tolerance = 0: must be greater than 0");
+  EXPECT_EQ(complaintAbout(with(text, "restitution: 0.9", "restitution: 1.1")),
+            "test.yaml: world.materials.ice.restitution = 1.1: must be from 0 to 1");
+  EXPECT_NE(complaintAbout(with(text, "second: ice", "second: glass"))
+                .find("world.material_pairs[0].second = glass: must be one of: default, ice, wood"),
+            std::string::npos);
+  EXPECT_NE(complaintAbout(with(text, "    drum: {mass", "    wall: {mass"))
+                .find("the name wall stands twice among vehicles, bodies and obstacles"),
+            std::string::npos);
+  EXPECT_NE(complaintAbout(with(text, "position: [1, 0.1, 0]", "position: [0.2, 0.1, 0]"))
+                .find("crate and drum overlap at the start by 0.1"),
+            std::string::npos);
+  EXPECT_NE(complaintAbout(with(text, "    hull: {box: {size: [0.4, 0.4, 0.2]}}\n", ""))
+                .find("vehicles.craft.hull: is missing"),
+            std::string::npos);
+  EXPECT_NE(complaintAbout(text.substr(0, text.find("world:"))).find("needs a world"),
+            std::string::npos);
+}
+
+TEST(WorldScenario, ARunGoesOnFromASnapshotAsIfItHadNeverStopped) {
+  Simulation whole(parsed(worldText()));
+  std::vector<ContactEvent> contacts;
+  whole.on_contact = [&contacts](const ContactEvent& event) { contacts.push_back(event); };
+  whole.push({0, 0, kAllEngines, Vector3(3.0, 0.0, 0.0)});
+  for (int i = 0; i < 200; ++i) whole.step();
+  EXPECT_FALSE(contacts.empty());
+  EXPECT_FALSE(whole.state().contacts.empty());
+  Simulation resumed(parsed(worldText()));
+  resumed.restore(parseSnapshot(toSnapshot(whole), "snapshot", whole.scenario()));
+  EXPECT_EQ(resumed.hash(), whole.hash());
+  for (int i = 0; i < 200; ++i) {
+    whole.step();
+    resumed.step();
+    ASSERT_EQ(resumed.hash(), whole.hash()) << i;
+  }
+}
+
+TEST(WorldScenario, AResetBeginsTheSameRunAgain) {
+  Simulation simulation(parsed(worldText()));
+  for (int i = 0; i < 250; ++i) simulation.step();
+  const std::uint64_t first = simulation.hash();
+  simulation.reset(1);
+  for (int i = 0; i < 250; ++i) simulation.step();
+  EXPECT_EQ(simulation.hash(), first);
+}
+
+TEST(WorldScenario, APlaceInsideAnotherBodyIsKnownBeforeItIsTaken) {
+  Simulation simulation(parsed(worldText()));
+  const auto overlap = simulation.overlapAt(0, Vector3(0.1, 0.0, 0.0), Quaternion::identity());
+  ASSERT_TRUE(overlap.has_value());
+  EXPECT_EQ(overlap->a, "craft");
+  EXPECT_EQ(overlap->b, "crate");
+  EXPECT_NEAR(overlap->depth, 0.25, 1e-12);
+  EXPECT_FALSE(
+      simulation.overlapAt(0, Vector3(-2.0, 0.0, 0.0), Quaternion::identity()).has_value());
+}
+
+TEST(WorldScenario, BitsDoNotDependOnTheOrientationOfOthersThatAreFar) {
+  const std::string alone = "step_size: 0.01\nmodel: planar\nvehicles:\n" + craftYaml("craft");
+  const std::string beside =
+      alone +
+      "    hull: {box: {size: [0.4, 0.4, 0.2]}}\nworld:\n  obstacles:\n    wall: {box: {size: [1, "
+      "1, 1]}, position: [50, 0, 0]}\n";
+  Simulation a(parsed(alone));
+  Simulation b(parsed(beside));
+  for (Simulation* simulation : {&a, &b}) {
+    simulation->push({0, 0, kAllEngines, Vector3(3.0, 0.5, 0.0)});
+    for (int i = 0; i < 200; ++i) simulation->step();
+  }
+  EXPECT_EQ(a.hash(), b.hash());
+}
+
+/// Each shipped scenario, every tick of it.
+class Shipped : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, NoStateOverlapsByMoreThanTheTolerance) {
+  Simulation simulation(loadScenario("config/" + GetParam() + ".yaml"));
+  const Vector3 thrusts(2.0, 0.0, 0.0);
+  if (GetParam() == "pen" || GetParam() == "crates") simulation.push({0, 0, kAllEngines, thrusts});
+  int contacts = 0;
+  simulation.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
+  double least = 1.0;
+  for (int i = 0; i < 4000; ++i) {
+    simulation.step();
+    least = std::min(least, simulation.world()->leastGap(simulation.worldStates()));
+  }
+  EXPECT_GT(least, -simulation.scenario().world->tolerance);
+  EXPECT_GT(contacts, 0);
+  EXPECT_EQ(simulation.world()->stalls(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(WorldScenario, Shipped,
+                         ::testing::Values("pen", "curling", "crates", "cradle", "tumble"),
+                         [](const auto& info) { return info.param; });
+
+}  // namespace
+}  // namespace hovercraft
