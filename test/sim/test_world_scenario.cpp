@@ -173,7 +173,7 @@ TEST_P(Shipped, NoStateOverlapsByMoreThanTheTolerance) {
 
 INSTANTIATE_TEST_SUITE_P(WorldScenario, Shipped,
                          ::testing::Values("pen", "curling", "crates", "cradle", "tumble"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& shipped) { return shipped.param; });
 
 }  // namespace
 }  // namespace hovercraft
