@@ -35,7 +35,7 @@ class PolygonWalk {
               const PlanarPose& X_WB)
       : body_{&A, &B},
         pose_{X_WA, X_WB},
-        touching_(kTouching * (A.radius() + B.radius() + length(X_WB.p_AB - X_WA.p_AB))) {
+        touching_(kTouchingDistance * (A.radius() + B.radius() + length(X_WB.p_AB - X_WA.p_AB))) {
     pose_[1].p_AB = X_WB.p_AB - X_WA.p_AB;
     pose_[0].p_AB = {0.0, 0.0};
   }

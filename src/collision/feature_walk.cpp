@@ -92,7 +92,7 @@ FeatureWalk::Outcome FeatureWalk::vertexVertex() {
   const Vector3 b = toWorld(1, vertex(1).p);
   const Vector3 u = precise_ ? preciseDifference() : Vector3(b - a);
   const double length = norm(u);
-  if (length <= kTouching * scale_) return Outcome::kOverlap;
+  if (length <= kTouchingDistance * scale_) return Outcome::kOverlap;
   const Slope slope_A = steepest(0, transposeTimes(*rotation_[0], u));
   const Verdict verdict_A = judge(slope_A.value, length);
   if (verdict_A == Verdict::kOutside) {
@@ -127,7 +127,7 @@ FeatureWalk::Outcome FeatureWalk::vertexEdge(int x) {
   const Vector3 away = precise_ ? transposeTimes(*rotation_[y], preciseVertexEdge(x))
                                 : Vector3(w - t * e.direction);  // from the edge to the vertex
   const double length = norm(away);
-  if (length <= kTouching * scale_) return Outcome::kOverlap;
+  if (length <= kTouchingDistance * scale_) return Outcome::kOverlap;
   const double slope_0 = dot(away, e.inward[0]);
   const double slope_1 = dot(away, e.inward[1]);
   const double slope_Y = std::max(slope_0, slope_1);
@@ -170,12 +170,12 @@ FeatureWalk::Outcome FeatureWalk::edgeEdge() {
     const double sine = std::sqrt(nn);
     edge_sine_ = sine;
     const double height = dot(crossing.w, crossing.n) / sine;
-    if (std::abs(height) <= kTouching * scale_) return Outcome::kOverlap;
+    if (std::abs(height) <= kTouchingDistance * scale_) return Outcome::kOverlap;
     const double signed_sine = height > 0.0 ? sine : -sine;
     return edgesMeet(crossing.n / signed_sine, std::abs(height), kPointRounding / sine);
   }
   const double length = norm(points.u);
-  if (length <= kTouching * scale_) return Outcome::kOverlap;
+  if (length <= kTouchingDistance * scale_) return Outcome::kOverlap;
   return edgesMeet(points.u / length, length, precise_ ? 0.0 : rounding_ / length);
 }
 

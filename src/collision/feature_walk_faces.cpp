@@ -113,7 +113,7 @@ FeatureWalk::Outcome FeatureWalk::vertexFace(int x) {
     return Outcome::kMoved;
   }
   const double height = dot(f.normal, p) - f.offset;
-  if (height <= kTouching * scale_) return leaveFace(x, p);
+  if (height <= kTouchingDistance * scale_) return leaveFace(x, p);
   const Vector3 u =
       times(*rotation_[y], Vector3(-f.normal));  // unit, from the vertex to the face, in W
   const Slope slope = steepest(x, transposeTimes(*rotation_[x], u));
@@ -130,7 +130,7 @@ FeatureWalk::Outcome FeatureWalk::vertexFace(int x) {
 /// the body of the face, or the face of the other side it lies outside of most is nearer.
 FeatureWalk::Outcome FeatureWalk::leaveFace(int x, const Vector3& p) {
   const int y = 1 - x;
-  double highest = kTouching * scale_;
+  double highest = kTouchingDistance * scale_;
   std::int32_t chosen = -1;
   const std::vector<Data::Face>& faces = body_[y]->faces;
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -178,7 +178,7 @@ FeatureWalk::Outcome FeatureWalk::edgeFace(int x) {
   const double rise = dot(f.normal, Vector3(end - start));
   const double height_from = height_start + cut.from * rise;
   const double height_to = height_start + cut.to * rise;
-  if (std::min(height_from, height_to) <= kTouching * scale_) {
+  if (std::min(height_from, height_to) <= kTouchingDistance * scale_) {
     if (std::max(height_from, height_to) >= 0.0) return Outcome::kOverlap;
     return leaveFace(x, start + (0.5 * (cut.from + cut.to)) * (end - start));
   }

@@ -61,7 +61,7 @@ constexpr double kPointRounding = 8e-16;
 
 /// Distance (-, of the sum of all coordinates) up to which two bodies touch: what rounding leaves
 /// of the sign.
-constexpr double kTouching = 4e-15;
+constexpr double kTouchingDistance = 4e-15;
 
 /// Overlap (-, of the sum of all coordinates) up to which two bodies whose features met count as
 /// touching: the sum over ten such roundings.
