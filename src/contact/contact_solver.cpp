@@ -125,6 +125,17 @@ double ContactSolver::relaxNormal(Point& point) {
   return std::abs(change) / n.mass;
 }
 
+/// The impulses along both tangents that stop the slip at the point, given what it is now.
+ContactSolver::Tangential ContactSolver::stopping(const Point& point, double v_s, double v_t) {
+  const Direction& s = point.directions[1];
+  const Direction& t = point.directions[2];
+  const double k = point.coupling;
+  const double determinant = s.mass > 0.0 && t.mass > 0.0 ? 1.0 / (s.mass * t.mass) - k * k : 0.0;
+  if (!(determinant > 0.0)) return {s.lambda - s.mass * v_s, t.lambda - t.mass * v_t};
+  return {s.lambda - (v_s / t.mass - k * v_t) / determinant,
+          t.lambda - (v_t / s.mass - k * v_s) / determinant};
+}
+
 /// Both tangents at once: the impulse that stops the slip, if the cone holds it; else a step
 /// against the slip, projected on the cone, whose fixed point is an impulse at the bound against
 /// the slip.
@@ -134,37 +145,25 @@ double ContactSolver::relaxTangents(Point& point) {
   const Vector3 v = velocity(point);
   const double v_s = s.mass > 0.0 ? dot(s.d, v) : 0.0;
   const double v_t = t.mass > 0.0 ? dot(t.d, v) : 0.0;
-  double lambda_s = s.lambda - s.mass * v_s;
-  double lambda_t = t.lambda - t.mass * v_t;
-  if (s.mass > 0.0 && t.mass > 0.0) {
-    const double k = point.coupling;
-    const double determinant = 1.0 / (s.mass * t.mass) - k * k;
-    if (determinant > 0.0) {
-      lambda_s = s.lambda - (v_s / t.mass - k * v_t) / determinant;
-      lambda_t = t.lambda - (v_t / s.mass - k * v_s) / determinant;
-    }
+  Tangential lambda = stopping(point, v_s, v_t);
+  const double pressed = point.directions[0].lambda;
+  const double bound = pressed > 0.0 ? point.friction * pressed : 0.0;
+  if (!point.bilateral && lambda.s * lambda.s + lambda.t * lambda.t > bound * bound) {
+    lambda = {s.lambda - point.slip_mass * v_s, t.lambda - point.slip_mass * v_t};
+    const double size = std::sqrt(lambda.s * lambda.s + lambda.t * lambda.t);
+    const double share = size > bound ? bound / size : 1.0;
+    lambda = {share * lambda.s, share * lambda.t};
   }
-  if (!point.bilateral) {
-    const double pressed = point.directions[0].lambda;
-    const double bound = pressed > 0.0 ? point.friction * pressed : 0.0;
-    if (lambda_s * lambda_s + lambda_t * lambda_t > bound * bound) {
-      lambda_s = s.lambda - point.slip_mass * v_s;
-      lambda_t = t.lambda - point.slip_mass * v_t;
-    }
-    const double size = std::sqrt(lambda_s * lambda_s + lambda_t * lambda_t);
-    if (size > bound) {
-      lambda_s *= bound / size;
-      lambda_t *= bound / size;
-    }
-  }
-  const double change_s = lambda_s - s.lambda;
-  const double change_t = lambda_t - t.lambda;
-  s.lambda = lambda_s;
-  t.lambda = lambda_t;
-  if (change_s != 0.0) apply(point, s, change_s);
-  if (change_t != 0.0) apply(point, t, change_t);
-  const double changed_s = s.mass > 0.0 ? std::abs(change_s) / s.mass : 0.0;
-  return t.mass > 0.0 ? std::max(changed_s, std::abs(change_t) / t.mass) : changed_s;
+  return std::max(change(point, s, lambda.s), change(point, t, lambda.t));
+}
+
+/// @returns the change of the velocity along a direction that its new impulse makes, m/s.
+double ContactSolver::change(const Point& point, Direction& along, double lambda) {
+  if (!(along.mass > 0.0)) return 0.0;
+  const double by = lambda - along.lambda;
+  along.lambda = lambda;
+  if (by != 0.0) apply(point, along, by);
+  return std::abs(by) / along.mass;
 }
 
 /// @returns the largest change of a velocity that it made, m/s.

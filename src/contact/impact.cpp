@@ -87,31 +87,40 @@ void ImpactSolver::take(const ContactSolver& solver, std::vector<ImpactPoint>& p
   }
 }
 
-void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& points) {
-  const bool has_friction = std::any_of(points.begin(), points.end(), [](const ImpactPoint& p) {
+/// A round, with as much of its restitution as does not add energy.
+void ImpactSolver::roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoint>& points,
+                                    Round kind) {
+  const bool can_gain = std::any_of(points.begin(), points.end(), [](const ImpactPoint& p) {
     return p.material.friction > 0.0 || p.material.stick;
   });
+  twists_.clear();
+  for (const ContactBody& body : solver.bodies()) twists_.push_back(body.twist);
+  double share = 1.0;
+  for (int attempt = 0; attempt <= kMaxHalvedRestitutions; ++attempt) {
+    const double gained = roundOf(solver, points, share, kind);
+    if (gained <= 0.0 || !can_gain || attempt == kMaxHalvedRestitutions) break;
+    for (std::size_t i = 0; i < twists_.size(); ++i) solver.bodies()[i].twist = twists_[i];
+    share = attempt + 2 >= kMaxHalvedRestitutions ? 0.0 : 0.5 * share;
+  }
+  take(solver, points);
+}
+
+bool ImpactSolver::isApproaching(const ContactSolver& solver,
+                                 const std::vector<ImpactPoint>& points) {
+  const double standing = points.size() < kCrowd ? kStandingPoint : 10.0 * kCrowdResidual;
+  const double tolerance = standing * scaleOf(solver, points);
+  return std::any_of(points.begin(), points.end(), [&](const ImpactPoint& point) {
+    return dot(point.nhat_AB_W, velocityAt(solver, point)) < -tolerance;
+  });
+}
+
+void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& points) {
   for (int round = 0; round <= kMaxImpactRounds + 1; ++round) {
-    const double standing = points.size() < kCrowd ? kStandingPoint : 10.0 * kCrowdResidual;
-    const double tolerance = standing * scaleOf(solver, points);
-    const bool approaching =
-        std::any_of(points.begin(), points.end(), [&](const ImpactPoint& point) {
-          return dot(point.nhat_AB_W, velocityAt(solver, point)) < -tolerance;
-        });
-    if (!approaching) return;
+    if (!isApproaching(solver, points)) return;
     const Round kind = round < kMaxImpactRounds    ? Round::kUsual
                        : round == kMaxImpactRounds ? Round::kPlastic
                                                    : Round::kPlasticWithoutFriction;
-    twists_.clear();
-    for (const ContactBody& body : solver.bodies()) twists_.push_back(body.twist);
-    double share = 1.0;
-    for (int attempt = 0; attempt <= kMaxHalvedRestitutions; ++attempt) {
-      const double gained = roundOf(solver, points, share, kind);
-      if (gained <= 0.0 || !has_friction || attempt == kMaxHalvedRestitutions) break;
-      for (std::size_t i = 0; i < twists_.size(); ++i) solver.bodies()[i].twist = twists_[i];
-      share = attempt + 2 >= kMaxHalvedRestitutions ? 0.0 : 0.5 * share;
-    }
-    take(solver, points);
+    roundWithoutGain(solver, points, kind);
   }
 }
 

@@ -12,6 +12,11 @@ namespace {
 /// and corners beyond this many are left to the time of impact.
 constexpr int kMaxCorners = 64;
 
+struct PlacedBody {
+  const ConvexPolyhedron& body;
+  const Pose& X_WB;
+};
+
 struct Corners {
   std::array<Vector3, kMaxCorners> points;
   int count = 0;
@@ -107,11 +112,14 @@ bool isFlatCorner(const Corners& polygon, int i) {
          kFlatCorner * kFlatCorner * (squaredNorm(in) * squaredNorm(out));
 }
 
-/// Clips the other body's face against a reference face. @param sign +1 if the reference face is
-/// A's, whose normal is that of the manifold, else -1.
-bool faceManifold(const ConvexPolyhedron& reference, const Pose& X_WR, int face,
-                  const ConvexPolyhedron& other, const Pose& X_WO, ContactManifold& manifold,
-                  double band) {
+/// Clips the face of `against` that looks against a face of `on` to the prism over that.
+/// @returns false if nothing of it is within the band.
+bool faceManifold(const PlacedBody& on, int face, const PlacedBody& against,
+                  ContactManifold& manifold, double band) {
+  const ConvexPolyhedron& reference = on.body;
+  const Pose& X_WR = on.X_WB;
+  const ConvexPolyhedron& other = against.body;
+  const Pose& X_WO = against.X_WB;
   const PolyhedronData& data = reference.data();
   const PolyhedronData::Face& f = data.faces[at(face)];
   const Vector3 normal = times(X_WR.R_AB, f.normal);
@@ -132,10 +140,10 @@ bool faceManifold(const ConvexPolyhedron& reference, const Pose& X_WR, int face,
     const double gap = dot(normal, polygon[i]) - height;
     if (gap > band) continue;
     const Vector3 p_WC = polygon[i] - (0.5 * gap) * normal;
-    const auto isSame = [&](const ContactPoint& known) {
+    const auto is_same = [&](const ContactPoint& known) {
       return squaredNorm(known.p_WC - p_WC) < same * same;
     };
-    if (std::any_of(points.begin(), points.begin() + count, isSame)) continue;
+    if (std::any_of(points.begin(), points.begin() + count, is_same)) continue;
     points[static_cast<std::size_t>(count++)] = {p_WC, gap};
   }
   if (count == 0) return false;
@@ -218,11 +226,11 @@ ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
   if (along_A >= aligned && along_A >= along_B) {
     manifold.nhat_AB_W = times(X_WA.R_AB, A.face(face_A).normal);
     manifold.face_owner = 0;
-    if (faceManifold(A, X_WA, face_A, B, X_WB, manifold, band)) return manifold;
+    if (faceManifold({A, X_WA}, face_A, {B, X_WB}, manifold, band)) return manifold;
   } else if (along_B >= aligned) {
     manifold.nhat_AB_W = -times(X_WB.R_AB, B.face(face_B).normal);
     manifold.face_owner = 1;
-    if (faceManifold(B, X_WB, face_B, A, X_WA, manifold, band)) return manifold;
+    if (faceManifold({B, X_WB}, face_B, {A, X_WA}, manifold, band)) return manifold;
   } else if (edgeManifold(A, X_WA, B, X_WB, closest, manifold)) {
     return manifold;
   }

@@ -144,7 +144,7 @@ World worldOf(const Scenario& scenario) {
   rules.tolerance = world.tolerance;
   rules.rest_speed = world.rest_speed;
   const std::size_t count = world.materials.size();
-  rules.material_count = static_cast<int>(count);
+  rules.material_count = count;
   rules.pairs.clear();
   for (const MaterialScenario& a : world.materials) {
     for (const MaterialScenario& b : world.materials) {

@@ -24,6 +24,7 @@ ContactMaterial parseSurface(const ConfigReader& reader) {
 
 std::vector<std::string> namesOf(const std::vector<MaterialScenario>& materials) {
   std::vector<std::string> names;
+  names.reserve(materials.size());
   for (const MaterialScenario& material : materials) names.push_back(material.name);
   return names;
 }
@@ -205,14 +206,43 @@ std::string surfaceText(const ContactMaterial& surface) {
 
 }  // namespace
 
+namespace {
+
+void refuseSurfaces(const ConfigReader& vehicles) {
+  for (const auto& [name, vehicle] : vehicles.maps()) {
+    for (const char* key : {"hull", "material"}) {
+      if (vehicle.has(key)) vehicle.fail(key, "needs a world: in the scenario");
+    }
+  }
+}
+
+void parseObstacles(const ConfigReader& obstacles, const ScenarioSource& source,
+                    WorldScenario& world) {
+  for (const auto& [name, obstacle] : obstacles.maps()) {
+    requireName(obstacle, name);
+    obstacle.allowOnly(
+        {"box", "cylinder", "sphere", "mesh", "points", "position", "rpy", "material"});
+    world.obstacles.push_back({name, parseHull(obstacle, source),
+                               obstacle.choiceOr(0, "material", namesOf(world.materials))});
+  }
+}
+
+void parseBodies(const ConfigReader& bodies, const ScenarioSource& source, BodyModel model,
+                 WorldScenario& world) {
+  for (const auto& [name, body] : bodies.maps()) {
+    body.allowOnly(
+        {"mass", "inertia", "center_of_mass", "parts", "drag", "hull", "material", "initial"});
+    world.bodies.push_back(parseMovingBody(name, body, source, model));
+    parseSurfaceOf(body, source, world, world.bodies.back());
+  }
+}
+
+}  // namespace
+
 void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
   if (!top.has("world")) {
-    for (const auto& [name, vehicle] : vehicles.maps()) {
-      for (const char* key : {"hull", "material"}) {
-        if (vehicle.has(key)) vehicle.fail(key, "needs a world: in the scenario");
-      }
-    }
+    refuseSurfaces(vehicles);
     return;
   }
   const ConfigReader reader = top.map("world");
@@ -225,23 +255,8 @@ void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario&
   for (VehicleScenario& vehicle : scenario.vehicles) {
     parseSurfaceOf(vehicles.map(vehicle.name), source, world, vehicle);
   }
-  if (reader.has("obstacles")) {
-    for (const auto& [name, obstacle] : reader.map("obstacles").maps()) {
-      requireName(obstacle, name);
-      obstacle.allowOnly(
-          {"box", "cylinder", "sphere", "mesh", "points", "position", "rpy", "material"});
-      world.obstacles.push_back({name, parseHull(obstacle, source),
-                                 obstacle.choiceOr(0, "material", namesOf(world.materials))});
-    }
-  }
-  if (reader.has("bodies")) {
-    for (const auto& [name, body] : reader.map("bodies").maps()) {
-      body.allowOnly(
-          {"mass", "inertia", "center_of_mass", "parts", "drag", "hull", "material", "initial"});
-      world.bodies.push_back(parseMovingBody(name, body, source, scenario.model));
-      parseSurfaceOf(body, source, world, world.bodies.back());
-    }
-  }
+  if (reader.has("obstacles")) parseObstacles(reader.map("obstacles"), source, world);
+  if (reader.has("bodies")) parseBodies(reader.map("bodies"), source, scenario.model, world);
   checkNames(reader, scenario);
   checkStart(reader, scenario);
 }

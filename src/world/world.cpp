@@ -27,6 +27,16 @@ bool holds(const AxisAlignedBox& outer, const AxisAlignedBox& inner) {
          outer.low.z() <= inner.low.z() && inner.high.z() <= outer.high.z();
 }
 
+/// How far two boxes are apart along the axis on which they are farthest, m; negative: they
+/// overlap.
+double gapOf(const AxisAlignedBox& a, const AxisAlignedBox& b) {
+  double gap = -std::numeric_limits<double>::max();
+  for (int axis = 0; axis < 3; ++axis) {
+    gap = std::max(gap, std::max(a.low[axis] - b.high[axis], b.low[axis] - a.high[axis]));
+  }
+  return gap;
+}
+
 const Vector3& positionOf(const BodyState& state) {
   return std::visit([](const auto& body) -> const Vector3& { return body.p_WB; }, state);
 }
@@ -36,11 +46,17 @@ const Vector3& positionOf(const BodyState& state) {
 constexpr double kRoom = 0.25;
 constexpr double kStepsAhead = 10.0;
 
+/// Room (m) of a body that is alone.
+constexpr double kFarRoom = 1e6;
+
 /// A body whose points came farther than `travel` allows is given twice what it took.
 constexpr double kTravelReserve = 2.0;
 
 /// Bound on how often a step is begun anew with more travel: each time it at least doubles.
 constexpr int kMaxRestarts = 20;
+
+/// Share (-) of the wanted gap from which on a pair counts as set apart.
+constexpr double kPartedShare = 0.9;
 
 /// Bound on the sweeps of partTouching(): the height of a stack squared, for fifty bodies.
 constexpr int kMaxPartingSweeps = 2500;
@@ -50,8 +66,7 @@ constexpr int kMaxPartingSweeps = 2500;
 World::World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
     : rules_(std::move(rules)), bodies_(std::move(bodies)), obstacles_(std::move(obstacles)) {
   demand(rules_.step > 0.0 && rules_.tolerance > 0.0, "a world needs a step and a tolerance");
-  demand(rules_.pairs.size() ==
-             static_cast<std::size_t>(rules_.material_count * rules_.material_count),
+  demand(rules_.pairs.size() == rules_.material_count * rules_.material_count,
          "a world needs a law for each pair of materials");
   for (const WorldBody& body : bodies_) {
     Extent extent;
@@ -116,6 +131,33 @@ AxisAlignedBox World::boxOf(std::size_t body, const Pose& pose, double margin) c
   return {center - half, center + half};
 }
 
+/// The boxes within which the list of neighbours stays complete. A body that is far from all others
+/// gets half of the way to the nearest.
+void World::makeRoom(const std::vector<BodyState>& states) {
+  const std::size_t count = bodies_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double reach = extents_[i].radius + extents_[i].travel;
+    const Vector3& p = positionOf(states[i]);
+    extents_[i].roomy = {p - Vector3::Constant(reach), p + Vector3::Constant(reach)};
+  }
+  rooms_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double clear = std::numeric_limits<double>::max();
+    for (std::size_t j = 0; j < count; ++j) {
+      if (j != i) clear = std::min(clear, gapOf(extents_[i].roomy, extents_[j].roomy));
+    }
+    for (const AxisAlignedBox& box : obstacle_boxes_) {
+      clear = std::min(clear, gapOf(extents_[i].roomy, box));
+    }
+    rooms_[i] = std::max(kRoom * extents_[i].radius + kStepsAhead * extents_[i].travel,
+                         std::min(kFarRoom, 0.5 * clear));
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3 room = Vector3::Constant(rooms_[i]);
+    extents_[i].roomy = {extents_[i].roomy.low - room, extents_[i].roomy.high + room};
+  }
+}
+
 /// Brings the list of neighbours up to date. @returns whether there are any.
 bool World::findNeighbours(const std::vector<BodyState>& states) {
   const std::size_t count = bodies_.size();
@@ -128,12 +170,7 @@ bool World::findNeighbours(const std::vector<BodyState>& states) {
   }
   if (inside) return !neighbours_.empty();
   neighbours_.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double reach = (1.0 + kRoom) * extents_[i].radius + kStepsAhead * extents_[i].travel;
-    const Vector3& p = positionOf(states[i]);
-    const Vector3 around = Vector3::Constant(reach);
-    extents_[i].roomy = {p - around, p + around};
-  }
+  makeRoom(states);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
       if (!extents_[i].roomy.overlaps(extents_[j].roomy)) continue;
@@ -181,6 +218,33 @@ void World::collectGroups() {
   for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = root(static_cast<std::int32_t>(i));
 }
 
+/// Lists the bodies and near pairs of a group. @returns whether it has a pair.
+bool World::listGroup(std::int32_t group) {
+  group_pairs_.clear();
+  for (const Pair& pair : near_) {
+    if (group_[static_cast<std::size_t>(pair.first)] == group) group_pairs_.push_back(pair);
+  }
+  group_bodies_.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (group_[i] == group) group_bodies_.push_back(static_cast<std::int32_t>(i));
+  }
+  return !group_pairs_.empty();
+}
+
+/// Takes over what an island did. @returns false if a body came farther than its travel.
+bool World::takeIsland() {
+  bool enough = true;
+  for (const IslandMember& member : scratch_.members) {
+    const auto i = static_cast<std::size_t>(member.index);
+    ends_[i] = member.state;
+    if (member.travelled <= extents_[i].travel) continue;
+    extents_[i].travel = kTravelReserve * member.travelled;
+    enough = false;
+  }
+  for (const IslandLink& link : scratch_.links) next_memory_.push_back(link.memory);
+  return enough;
+}
+
 /// Steps each group with a near pair. @returns false if a body came farther than its travel: the
 /// step must begin anew, with more of it.
 bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<BodyState>& states,
@@ -189,28 +253,12 @@ bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<B
   next_memory_.clear();
   bool enough = true;
   for (std::size_t first = 0; first < bodies_.size(); ++first) {
-    if (group_[first] != static_cast<std::int32_t>(first)) continue;
-    group_pairs_.clear();
-    for (const Pair& pair : near_) {
-      if (group_[static_cast<std::size_t>(pair.first)] == group_[first])
-        group_pairs_.push_back(pair);
-    }
-    if (group_pairs_.empty()) continue;
-    group_bodies_.clear();
-    for (std::size_t i = first; i < bodies_.size(); ++i) {
-      if (group_[i] == group_[first]) group_bodies_.push_back(static_cast<std::int32_t>(i));
-    }
+    const auto group = static_cast<std::int32_t>(first);
+    if (group_[first] != group || !listGroup(group)) continue;
     Island island(*this, drives, scratch_, records);
     island.begin(group_bodies_, group_pairs_, states, memory);
     if (!island.run()) ++stalls_;
-    for (const IslandMember& member : scratch_.members) {
-      const auto i = static_cast<std::size_t>(member.index);
-      ends_[i] = member.state;
-      if (member.travelled <= extents_[i].travel) continue;
-      extents_[i].travel = kTravelReserve * member.travelled;
-      enough = false;
-    }
-    for (const IslandLink& link : scratch_.links) next_memory_.push_back(link.memory);
+    enough = takeIsland() && enough;
   }
   return enough;
 }
@@ -263,65 +311,62 @@ std::vector<World::Pair> World::allPairs(int body) const {
 
 double World::leastGap(const std::vector<BodyState>& states) const {
   double least = std::numeric_limits<double>::infinity();
-  for (const Pair& pair : allPairs(-1)) {
-    FeaturePair features;
-    least =
-        std::min(least, closestFeatures(hullOf(pair.first), poseIn(states, pair.first),
-                                        hullOf(pair.second), poseIn(states, pair.second), features)
-                            .distance);
-  }
+  for (const Pair& pair : allPairs(-1)) least = std::min(least, closestOf(states, pair).distance);
   return least;
 }
 
 std::optional<WorldOverlap> World::overlap(const std::vector<BodyState>& states, int body) const {
   std::optional<WorldOverlap> worst;
   for (const Pair& pair : allPairs(body)) {
-    FeaturePair features;
-    const double depth =
-        -closestFeatures(hullOf(pair.first), poseIn(states, pair.first), hullOf(pair.second),
-                         poseIn(states, pair.second), features)
-             .distance;
+    const double depth = -closestOf(states, pair).distance;
     if (depth <= rules_.tolerance || (worst && depth <= worst->depth)) continue;
     worst = WorldOverlap{nameOf(pair.first), nameOf(pair.second), depth};
   }
   return worst;
 }
 
+ClosestFeatures World::closestOf(const std::vector<BodyState>& states, const Pair& pair) const {
+  FeaturePair features;
+  return closestFeatures(hullOf(pair.first), poseIn(states, pair.first), hullOf(pair.second),
+                         poseIn(states, pair.second), features);
+}
+
+/// Moves both bodies of a pair apart, as their masses share it, if their gap is short of `wanted`.
+/// @param only a body, the only one that moves; -1: both. @returns whether something was moved.
+bool World::partPair(std::vector<BodyState>& states, const Pair& pair, double wanted,
+                     int only) const {
+  const ClosestFeatures closest = closestOf(states, pair);
+  if (closest.distance >= kPartedShare * wanted) return false;
+  const std::int32_t sides[2] = {pair.first, pair.second};
+  Vector3 ways[2] = {Vector3::Zero(), Vector3::Zero()};
+  double share = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    if (isFixed(sides[k]) || (only >= 0 && sides[k] != only)) continue;
+    const auto i = static_cast<std::size_t>(sides[k]);
+    ways[k] = bodies_[i].model.mobility.inverseMass().cwiseProduct(closest.nhat_AB_W);
+    share += dot(closest.nhat_AB_W, ways[k]);
+  }
+  if (!(share > 0.0)) return false;
+  const double by = (wanted - closest.distance) / share;
+  for (int k = 0; k < 2; ++k) {
+    if (isFixed(sides[k])) continue;
+    const Vector3 shift = (k == 0 ? -by : by) * ways[k];
+    std::visit([&](auto& state) { state.p_WB += shift; },
+               states[static_cast<std::size_t>(sides[k])]);
+  }
+  return true;
+}
+
 void World::partTouching(std::vector<BodyState>& states, int body) const {
-  const double wanted = kRestGap * rules_.tolerance;
   std::vector<Pair> pairs;
   for (const Pair& pair : allPairs(body)) {
-    FeaturePair features;
-    const double gap = closestFeatures(hullOf(pair.first), poseIn(states, pair.first),
-                                       hullOf(pair.second), poseIn(states, pair.second), features)
-                           .distance;
-    if (gap < kLostContact * rules_.tolerance) pairs.push_back(pair);
+    if (closestOf(states, pair).distance < kLostContact * rules_.tolerance) pairs.push_back(pair);
   }
-  const auto move = [&](std::int32_t index, const Vector3& by) {
-    if (isFixed(index)) return;
-    std::visit([&](auto& state) { state.p_WB += by; }, states[static_cast<std::size_t>(index)]);
-  };
-  const auto inverseMass = [&](std::int32_t index) {
-    if (isFixed(index) || (body >= 0 && index != body)) return Vector3(Vector3::Zero());
-    return bodies_[static_cast<std::size_t>(index)].model.mobility.inverseMass();
-  };
   bool moved = true;
   for (int sweep = 0; sweep < kMaxPartingSweeps && moved; ++sweep) {
     moved = false;
     for (const Pair& pair : pairs) {
-      FeaturePair features;
-      const ClosestFeatures closest =
-          closestFeatures(hullOf(pair.first), poseIn(states, pair.first), hullOf(pair.second),
-                          poseIn(states, pair.second), features);
-      if (closest.distance >= 0.9 * wanted) continue;
-      const Vector3 way_a = inverseMass(pair.first).cwiseProduct(closest.nhat_AB_W);
-      const Vector3 way_b = inverseMass(pair.second).cwiseProduct(closest.nhat_AB_W);
-      const double share = dot(closest.nhat_AB_W, Vector3(way_a + way_b));
-      if (!(share > 0.0)) continue;
-      const double by = (wanted - closest.distance) / share;
-      move(pair.first, -by * way_a);
-      move(pair.second, by * way_b);
-      moved = true;
+      moved = partPair(states, pair, kRestGap * rules_.tolerance, body) || moved;
     }
   }
 }

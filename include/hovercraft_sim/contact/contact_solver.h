@@ -104,6 +104,13 @@ class ContactSolver {
   void keepImpulses();
   double lengthOfSweep() const;
   void goOn(double share);
+  /// Impulses along the tangents, N s.
+  struct Tangential {
+    double s;
+    double t;
+  };
+  static Tangential stopping(const Point& point, double v_s, double v_t);
+  double change(const Point& point, Direction& along, double lambda);
   double relax(Point& point);
   double relaxNormal(Point& point);
   double relaxTangents(Point& point);

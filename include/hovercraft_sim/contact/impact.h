@@ -41,6 +41,8 @@ class ImpactSolver {
   enum class Round { kUsual, kPlastic, kPlasticWithoutFriction };
 
   double roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share, Round kind);
+  void roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoint>& points, Round kind);
+  static bool isApproaching(const ContactSolver& solver, const std::vector<ImpactPoint>& points);
   void take(const ContactSolver& solver, std::vector<ImpactPoint>& points);
 
   std::vector<std::size_t> chosen_;  // indices of points

@@ -67,6 +67,7 @@ class Island {
  private:
   void look(double left);
   bool repair();
+  bool repairSweep();
   ClosestFeatures closestNow(IslandLink& link);
   bool shiftApart(const IslandLink& link, double by);
   void strike(double now);

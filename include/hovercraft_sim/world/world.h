@@ -62,9 +62,14 @@ class World {
   };
 
   double travelOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
+  void makeRoom(const std::vector<BodyState>& states);
   bool findNeighbours(const std::vector<BodyState>& states);
   void findNearPairs(const std::vector<BodyState>& states);
   void collectGroups();
+  bool listGroup(std::int32_t group);
+  bool takeIsland();
+  ClosestFeatures closestOf(const std::vector<BodyState>& states, const Pair& pair) const;
+  bool partPair(std::vector<BodyState>& states, const Pair& pair, double wanted, int only) const;
   bool stepGroups(const std::vector<BodyDrive>& drives, const std::vector<BodyState>& states,
                   const std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records);
   AxisAlignedBox boxOf(std::size_t body, const Pose& pose, double margin) const;
@@ -81,6 +86,7 @@ class World {
   std::vector<Extent> extents_;
   bool knows_neighbours_ = false;
   std::vector<Pair> neighbours_;     // may come near, ascending
+  std::vector<double> rooms_;        // m, of each body
   std::vector<Pair> near_;           // may meet in this step, ascending
   std::vector<std::int32_t> group_;  // of each body: the least index in its group
   std::vector<BodyState> ends_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -36,11 +37,11 @@ struct WorldRules {
   double step = 0.0;         // s
   double tolerance = 1e-6;   // m: bodies within it touch; no state overlaps by more
   double rest_speed = 0.01;  // m/s: a slower approach does not bounce, in the share (1 - e)
-  int material_count = 1;
+  std::size_t material_count = 1;
   std::vector<ContactMaterial> pairs = {{}};  // material_count rows and columns, symmetric
 
   const ContactMaterial& pair(int a, int b) const {
-    return pairs[static_cast<std::size_t>(a * material_count + b)];
+    return pairs[static_cast<std::size_t>(a) * material_count + static_cast<std::size_t>(b)];
   }
 };
 

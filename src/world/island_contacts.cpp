@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <limits>
+
+#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/world/island.h"
+#include "hovercraft_sim/world/world.h"
+
+/// What the bodies of an island do to each other: impacts, and the forces of resting contacts.
+
+namespace hovercraft {
+namespace {
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+void applyImpulse(BodyState& state, const Mobility& mobility, const Vector3& impulse,
+                  const Vector3& p_WC) {
+  std::visit(
+      [&](auto& body) {
+        const Wrench kick = mobility.project({impulse, cross(p_WC - body.p_WB, impulse)});
+        body.momentum_W += kick.force;
+        body.angular_momentum_W += kick.torque;
+      },
+      state);
+}
+
+}  // namespace
+
+/// The bodies of the island for the solver, 0 what is fixed. @param at_end with the velocities at
+/// the end of the piece without contact.
+void Island::addBodies(bool at_end) {
+  s_.solver.clear();
+  s_.solver.add(ContactBody());
+  for (const IslandMember& member : s_.members) {
+    const Mobility& mobility = world_.bodies_[at(member.index)].model.mobility;
+    s_.solver.add({member.pose.p_AB, mobility.inverseMass(),
+                   mobility.inverseInertia(member.pose.R_AB),
+                   twistOf(at_end ? member.end : member.state, mobility)});
+  }
+}
+
+/// The impact of all points that touch now. @param now s, from the start of the step.
+void Island::strike(double now) {
+  s_.impact_points.clear();
+  for (IslandLink& link : s_.links) {
+    link.first_point = s_.impact_points.size();
+    link.point_count = 0;
+    if (!link.touching) continue;
+    for (int i = 0; i < link.manifold.count; ++i) {
+      const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
+      if (contact.gap > world_.rules_.tolerance) continue;
+      ImpactPoint point;
+      point.a = link.slot_a;
+      point.b = link.slot_b;
+      point.nhat_AB_W = link.manifold.nhat_AB_W;
+      point.p_WC = contact.p_WC;
+      point.material = link.material;
+      point.plastic_speed = restSpeed(link);
+      s_.impact_points.push_back(point);
+      ++link.point_count;
+    }
+  }
+  if (s_.impact_points.empty()) return;
+  addBodies(false);
+  if (!isStruck()) return;
+  s_.impact.resolve(s_.solver, s_.impact_points);
+  for (const ImpactPoint& point : s_.impact_points) {
+    if (squaredNorm(point.impulse) == 0.0) continue;
+    for (const auto& [slot, sign] : {std::pair<std::int32_t, double>(point.a, -1.0),
+                                     std::pair<std::int32_t, double>(point.b, 1.0)}) {
+      if (slot == 0) continue;
+      IslandMember& member = s_.members[at(slot - 1)];
+      applyImpulse(member.state, world_.bodies_[at(member.index)].model.mobility,
+                   sign * point.impulse, point.p_WC);
+    }
+  }
+  report(now);
+}
+
+/// Whether some pair that touches approaches faster than its resting contact stops by itself.
+bool Island::isStruck() const {
+  const WorldRules& rules = world_.rules_;
+  const double slow = kRestApproach * kRestGap * rules.tolerance / rules.step;
+  for (const IslandLink& link : s_.links) {
+    const double bound = link.memory.resting ? slow : kStillSpeed;
+    for (std::size_t k = link.first_point;
+         k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
+      const ImpactPoint& point = s_.impact_points[k];
+      const ContactBody& A = s_.solver.bodies()[at(point.a)];
+      const ContactBody& B = s_.solver.bodies()[at(point.b)];
+      const Vector3 v = velocityOfPoint(B.twist, point.p_WC, B.p_WB) -
+                        velocityOfPoint(A.twist, point.p_WC, A.p_WB);
+      if (dot(point.nhat_AB_W, v) < -bound) return true;
+    }
+  }
+  return false;
+}
+
+/// A record for each pair that met faster than what counts as rest.
+void Island::report(double now) {
+  for (IslandLink& link : s_.links) {
+    ContactRecord record;
+    double weight = 0.0;
+    double approach = 0.0;
+    bool bounced = false;
+    for (std::size_t k = link.first_point;
+         k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
+      const ImpactPoint& point = s_.impact_points[k];
+      const double size = norm(point.impulse);
+      if (size == 0.0) continue;
+      record.impulse_B_W += point.impulse;
+      record.p_WC += size * point.p_WC;
+      weight += size;
+      approach = std::max(approach, point.approach);
+      bounced = bounced || point.bounced;
+    }
+    if (weight == 0.0) continue;
+    ++link.impacts;
+    const bool slow = approach <= (link.memory.resting ? world_.rules_.rest_speed : kStillSpeed);
+    if (slow && !bounced) continue;
+    record.kind = bounced ? ContactKind::kBounce : ContactKind::kStick;
+    if (!bounced && approach < world_.rules_.rest_speed) continue;  // comes to rest
+    record.a = link.memory.a;
+    record.b = link.memory.b;
+    record.time = now;
+    record.p_WC = record.p_WC / weight;
+    record.nhat_AB_W = link.manifold.nhat_AB_W;
+    records_.push_back(record);
+  }
+}
+
+/// How much faster a point parts at the end of the piece without contact than the same velocities
+/// would have it part from where the bodies are now, m/s: a corner goes round with its body, and a
+/// normal with its face.
+double Island::curvature(const IslandLink& link, const Vector3& p_WC) const {
+  const Vector3& n = link.manifold.nhat_AB_W;
+  const int corner_of = link.manifold.face_owner == 0 ? 1 : 0;
+  const std::int32_t slots[2] = {link.slot_a, link.slot_b};
+  Vector3 p_end = p_WC;
+  if (slots[corner_of] != 0) {
+    const IslandMember& member = s_.members[at(slots[corner_of] - 1)];
+    p_end = transform(member.end_pose, inverseTransform(member.pose, p_WC));
+  }
+  Vector3 n_end = n;
+  const int owner = link.manifold.face_owner;
+  if (owner >= 0 && slots[owner] != 0) {
+    const IslandMember& member = s_.members[at(slots[owner] - 1)];
+    n_end = times(member.end_pose.R_AB, transposeTimes(member.pose.R_AB, n));
+  }
+  double faster = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    if (slots[side] == 0) continue;
+    const IslandMember& member = s_.members[at(slots[side] - 1)];
+    const Twist& twist = s_.solver.bodies()[at(slots[side])].twist;
+    const double difference = dot(n_end, velocityOfPoint(twist, p_end, member.end_pose.p_AB)) -
+                              dot(n, velocityOfPoint(twist, p_WC, member.pose.p_AB));
+    faster += side == 0 ? -difference : difference;
+  }
+  return faster;
+}
+
+/// Asks the points of a pair to stay apart until the end of the piece. @returns whether it has any.
+bool Island::addRestPoints(IslandLink& link, double left) {
+  const WorldRules& rules = world_.rules_;
+  link.first_point = s_.solver.pointCount();
+  link.point_count = 0;
+  if (!link.touching) return false;
+  const double still = restSpeed(link);
+  const double wanted = kRestGap * rules.tolerance;
+  const ContactBody fixed;
+  const auto velocityNow = [&](std::int32_t slot, const Vector3& p_WC) {
+    if (slot == 0) return Vector3(Vector3::Zero());
+    const IslandMember& member = s_.members[at(slot - 1)];
+    const Twist twist = twistOf(member.state, world_.bodies_[at(member.index)].model.mobility);
+    return velocityOfPoint(twist, p_WC, member.pose.p_AB);
+  };
+  std::array<bool, ContactManifold::kMaxPoints> used{};
+  const Pose& X_WA = poseOfIndex(link.memory.a);
+  const double near = 0.05 * world_.hullOf(link.memory.a).data().radius;
+  for (int i = 0; i < link.manifold.count; ++i) {
+    const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
+    const double speed = dot(
+        link.manifold.nhat_AB_W,
+        Vector3(velocityNow(link.slot_b, contact.p_WC) - velocityNow(link.slot_a, contact.p_WC)));
+    // What parts flies on its own; what comes fast is an impact, in its time.
+    if (speed > still || (contact.gap > rules.tolerance && speed < -still)) continue;
+    ContactDemand asked;
+    asked.a = link.slot_a;
+    asked.b = link.slot_b;
+    asked.nhat_AB_W = link.manifold.nhat_AB_W;
+    asked.p_WC = contact.p_WC;
+    const double missing = wanted - contact.gap;
+    // One linear law for all points that touch: else the four of a face would ask for what no
+    // motion of two rigid bodies can give, and the sweeps would creep.
+    asked.target = contact.gap > rules.tolerance ? (rules.tolerance - contact.gap) / left
+                                                 : kGapRecovery * missing / rules.step;
+    asked.friction =
+        link.material.stick ? std::numeric_limits<double>::infinity() : link.material.friction;
+    double closest = near * near;
+    int matched = -1;
+    for (int k = 0; k < link.memory.count; ++k) {
+      if (used[static_cast<std::size_t>(k)]) continue;
+      const Vector3 p_W = transform(X_WA, link.memory.p_AC[static_cast<std::size_t>(k)]);
+      const double away = squaredNorm(p_W - contact.p_WC);
+      if (away >= closest) continue;
+      closest = away;
+      matched = k;
+    }
+    if (matched >= 0) {
+      used[static_cast<std::size_t>(matched)] = true;
+      asked.start = left * link.memory.force_B_W[static_cast<std::size_t>(matched)];
+    }
+    s_.solver.add(asked);
+    ++link.point_count;
+  }
+  return link.point_count > 0;
+}
+
+/// The constant forces that hold touching bodies apart over the rest of the step.
+void Island::press(double now) {
+  const double left = world_.rules_.step - now;
+  bool any_touch = false;
+  for (const IslandLink& link : s_.links) any_touch = any_touch || link.touching;
+  for (IslandMember& member : s_.members) {
+    member.contact = Wrench();
+    if (!any_touch) continue;
+    member.end = moved(member, now, world_.rules_.step, false);
+    member.end_pose = poseOf(member.end);
+  }
+  if (!any_touch) {
+    for (IslandLink& link : s_.links) link.memory.count = 0;
+    return;
+  }
+  addBodies(true);
+  bool any = false;
+  for (IslandLink& link : s_.links) any = addRestPoints(link, left) || any;
+  const auto points = static_cast<int>(s_.solver.pointCount());
+  if (any) {
+    s_.solver.solve({std::max(kMinRestSweeps, kMaxRestRelaxations / points), kLeastRestSweeps,
+                     kRestResidual * kRestGap * world_.rules_.tolerance / world_.rules_.step});
+  }
+  takeForces(now, left);
+}
+
+void Island::takeForces(double now, double left) {
+  const double per_time = 1.0 / left;
+  for (IslandLink& link : s_.links) {
+    ContactMemory& memory = link.memory;
+    memory.count = 0;
+    ContactRecord record;
+    double weight = 0.0;
+    for (std::size_t k = link.first_point;
+         k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
+      const Vector3 impulse = s_.solver.impulse(k);
+      const double size = norm(impulse);
+      if (size == 0.0) continue;
+      const Vector3 p_WC = s_.solver.positionOf(k);
+      const Vector3 force = per_time * impulse;
+      const auto slot = static_cast<std::size_t>(memory.count++);
+      memory.p_AC[slot] = inverseTransform(poseOfIndex(memory.a), p_WC);
+      memory.force_B_W[slot] = force;
+      for (const auto& [body, sign] : {std::pair<std::int32_t, double>(link.slot_a, -1.0),
+                                       std::pair<std::int32_t, double>(link.slot_b, 1.0)}) {
+        if (body == 0) continue;
+        IslandMember& member = s_.members[at(body - 1)];
+        const Wrench push = wrenchOfForceAt(sign * force, p_WC, member.pose.p_AB);
+        member.contact = member.contact + push;
+      }
+      record.impulse_B_W += impulse;
+      record.p_WC += size * p_WC;
+      weight += size;
+    }
+    if (weight == 0.0 || memory.resting) continue;
+    memory.resting = true;
+    record.kind = ContactKind::kRest;
+    record.a = memory.a;
+    record.b = memory.b;
+    record.time = now;
+    record.p_WC = record.p_WC / weight;
+    record.nhat_AB_W = link.manifold.nhat_AB_W;
+    records_.push_back(record);
+  }
+}
+
+}  // namespace hovercraft
