@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "hovercraft_sim/math/tolerances.h"
@@ -23,6 +24,83 @@ void applyImpulse(BodyState& state, const Mobility& mobility, const Vector3& imp
         body.angular_momentum_W += kick.torque;
       },
       state);
+}
+
+/// What the points of one pair got in an impact.
+struct PairImpact {
+  Vector3 impulse = Vector3::Zero();  // N s, on B
+  Vector3 moment = Vector3::Zero();   // N s m: points by the size of their impulses
+  double weight = 0.0;                // N s
+  double approach = 0.0;              // m/s
+  bool bounced = false;
+};
+
+PairImpact sumOf(const IslandLink& link, const std::vector<ImpactPoint>& points) {
+  PairImpact sum;
+  const std::size_t end = link.first_point + static_cast<std::size_t>(link.point_count);
+  for (std::size_t k = link.first_point; k < end; ++k) {
+    const ImpactPoint& point = points[k];
+    const double size = norm(point.impulse);
+    if (size == 0.0) continue;
+    sum.impulse += point.impulse;
+    sum.moment += size * point.p_WC;
+    sum.weight += size;
+    sum.approach = std::max(sum.approach, point.approach);
+    sum.bounced = sum.bounced || point.bounced;
+  }
+  return sum;
+}
+
+/// Gives both bodies of a point its impulse.
+void applyToBoth(const ImpactPoint& point, const World& world, std::vector<IslandMember>& members) {
+  const std::int32_t slots[2] = {point.a, point.b};
+  for (int side = 0; side < 2; ++side) {
+    if (slots[side] == 0) continue;
+    IslandMember& member = members[at(slots[side] - 1)];
+    const Vector3 impulse = (side == 0 ? -1.0 : 1.0) * point.impulse;
+    applyImpulse(member.state, world.bodies()[at(member.index)].model.mobility, impulse,
+                 point.p_WC);
+  }
+}
+
+/// Pushes both bodies of a pair with a force (N, on B) at a point.
+void pushBoth(const IslandLink& link, const Vector3& force, const Vector3& p_WC,
+              std::vector<IslandMember>& members) {
+  const std::int32_t slots[2] = {link.slot_a, link.slot_b};
+  for (int side = 0; side < 2; ++side) {
+    if (slots[side] == 0) continue;
+    IslandMember& member = members[at(slots[side] - 1)];
+    const Vector3 on_body = (side == 0 ? -1.0 : 1.0) * force;
+    member.contact = member.contact + wrenchOfForceAt(on_body, p_WC, member.pose.p_AB);
+  }
+}
+
+/// Velocity of a body's point at the start of the piece, m/s; 0 for what is fixed.
+Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC, const World& world,
+                    const std::vector<IslandMember>& members) {
+  if (slot == 0) return Vector3::Zero();
+  const IslandMember& member = members[at(slot - 1)];
+  const Twist twist = twistOf(member.state, world.bodies()[at(member.index)].model.mobility);
+  return velocityOfPoint(twist, p_WC, member.pose.p_AB);
+}
+
+using UsedPoints = std::array<bool, ContactManifold::kMaxPoints>;
+
+/// The force that was remembered nearest to a point, N on B; each is taken once.
+Vector3 rememberedForce(const ContactMemory& memory, const Pose& X_WA, const Vector3& p_WC,
+                        double near, UsedPoints& used) {
+  double closest = near * near;
+  int matched = -1;
+  for (int k = 0; k < memory.count; ++k) {
+    const auto slot = static_cast<std::size_t>(k);
+    const double away = squaredNorm(transform(X_WA, memory.p_AC[slot]) - p_WC);
+    if (used[slot] || away >= closest) continue;
+    closest = away;
+    matched = k;
+  }
+  if (matched < 0) return Vector3::Zero();
+  used[static_cast<std::size_t>(matched)] = true;
+  return memory.force_B_W[static_cast<std::size_t>(matched)];
 }
 
 }  // namespace
@@ -66,14 +144,7 @@ void Island::strike(double now) {
   if (!isStruck()) return;
   s_.impact.resolve(s_.solver, s_.impact_points);
   for (const ImpactPoint& point : s_.impact_points) {
-    if (squaredNorm(point.impulse) == 0.0) continue;
-    for (const auto& [slot, sign] : {std::pair<std::int32_t, double>(point.a, -1.0),
-                                     std::pair<std::int32_t, double>(point.b, 1.0)}) {
-      if (slot == 0) continue;
-      IslandMember& member = s_.members[at(slot - 1)];
-      applyImpulse(member.state, world_.bodies_[at(member.index)].model.mobility,
-                   sign * point.impulse, point.p_WC);
-    }
+    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, world_, s_.members);
   }
   report(now);
 }
@@ -100,32 +171,18 @@ bool Island::isStruck() const {
 /// A record for each pair that met faster than what counts as rest.
 void Island::report(double now) {
   for (IslandLink& link : s_.links) {
-    ContactRecord record;
-    double weight = 0.0;
-    double approach = 0.0;
-    bool bounced = false;
-    for (std::size_t k = link.first_point;
-         k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
-      const ImpactPoint& point = s_.impact_points[k];
-      const double size = norm(point.impulse);
-      if (size == 0.0) continue;
-      record.impulse_B_W += point.impulse;
-      record.p_WC += size * point.p_WC;
-      weight += size;
-      approach = std::max(approach, point.approach);
-      bounced = bounced || point.bounced;
-    }
-    if (weight == 0.0) continue;
+    const PairImpact sum = sumOf(link, s_.impact_points);
+    if (sum.weight == 0.0) continue;
     ++link.impacts;
-    const bool slow = approach <= (link.memory.resting ? world_.rules_.rest_speed : kStillSpeed);
-    if (slow && !bounced) continue;
-    record.kind = bounced ? ContactKind::kBounce : ContactKind::kStick;
-    if (!bounced && approach < world_.rules_.rest_speed) continue;  // comes to rest
+    if (!sum.bounced && sum.approach < world_.rules_.rest_speed) continue;  // comes to rest
+    ContactRecord record;
+    record.kind = sum.bounced ? ContactKind::kBounce : ContactKind::kStick;
     record.a = link.memory.a;
     record.b = link.memory.b;
     record.time = now;
-    record.p_WC = record.p_WC / weight;
+    record.p_WC = sum.moment / sum.weight;
     record.nhat_AB_W = link.manifold.nhat_AB_W;
+    record.impulse_B_W = sum.impulse;
     records_.push_back(record);
   }
 }
@@ -168,21 +225,14 @@ bool Island::addRestPoints(IslandLink& link, double left) {
   if (!link.touching) return false;
   const double still = restSpeed(link);
   const double wanted = kRestGap * rules.tolerance;
-  const ContactBody fixed;
-  const auto velocityNow = [&](std::int32_t slot, const Vector3& p_WC) {
-    if (slot == 0) return Vector3(Vector3::Zero());
-    const IslandMember& member = s_.members[at(slot - 1)];
-    const Twist twist = twistOf(member.state, world_.bodies_[at(member.index)].model.mobility);
-    return velocityOfPoint(twist, p_WC, member.pose.p_AB);
-  };
-  std::array<bool, ContactManifold::kMaxPoints> used{};
+  UsedPoints used{};
   const Pose& X_WA = poseOfIndex(link.memory.a);
   const double near = 0.05 * world_.hullOf(link.memory.a).data().radius;
   for (int i = 0; i < link.manifold.count; ++i) {
     const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
-    const double speed = dot(
-        link.manifold.nhat_AB_W,
-        Vector3(velocityNow(link.slot_b, contact.p_WC) - velocityNow(link.slot_a, contact.p_WC)));
+    const Vector3 v = velocityNow(link.slot_b, contact.p_WC, world_, s_.members) -
+                      velocityNow(link.slot_a, contact.p_WC, world_, s_.members);
+    const double speed = dot(link.manifold.nhat_AB_W, v);
     // What parts flies on its own; what comes fast is an impact, in its time.
     if (speed > still || (contact.gap > rules.tolerance && speed < -still)) continue;
     ContactDemand asked;
@@ -197,20 +247,7 @@ bool Island::addRestPoints(IslandLink& link, double left) {
                                                  : kGapRecovery * missing / rules.step;
     asked.friction =
         link.material.stick ? std::numeric_limits<double>::infinity() : link.material.friction;
-    double closest = near * near;
-    int matched = -1;
-    for (int k = 0; k < link.memory.count; ++k) {
-      if (used[static_cast<std::size_t>(k)]) continue;
-      const Vector3 p_W = transform(X_WA, link.memory.p_AC[static_cast<std::size_t>(k)]);
-      const double away = squaredNorm(p_W - contact.p_WC);
-      if (away >= closest) continue;
-      closest = away;
-      matched = k;
-    }
-    if (matched >= 0) {
-      used[static_cast<std::size_t>(matched)] = true;
-      asked.start = left * link.memory.force_B_W[static_cast<std::size_t>(matched)];
-    }
+    asked.start = left * rememberedForce(link.memory, X_WA, contact.p_WC, near, used);
     s_.solver.add(asked);
     ++link.point_count;
   }
@@ -260,13 +297,7 @@ void Island::takeForces(double now, double left) {
       const auto slot = static_cast<std::size_t>(memory.count++);
       memory.p_AC[slot] = inverseTransform(poseOfIndex(memory.a), p_WC);
       memory.force_B_W[slot] = force;
-      for (const auto& [body, sign] : {std::pair<std::int32_t, double>(link.slot_a, -1.0),
-                                       std::pair<std::int32_t, double>(link.slot_b, 1.0)}) {
-        if (body == 0) continue;
-        IslandMember& member = s_.members[at(body - 1)];
-        const Wrench push = wrenchOfForceAt(sign * force, p_WC, member.pose.p_AB);
-        member.contact = member.contact + push;
-      }
+      pushBoth(link, force, p_WC, s_.members);
       record.impulse_B_W += impulse;
       record.p_WC += size * p_WC;
       weight += size;

@@ -8,13 +8,15 @@
 
 #include <hovercraft_sim/Contact.h>
 #include <hovercraft_sim/State.h>
+#include <hovercraft_sim/ThrustCommand.h>
+#include <ros/node_handle.h>
 #include <ros/service.h>
 
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/core_run.h"
-#include "../support/pilot.h"
 #include "../support/recorded_flight.h"
+#include "../support/wait_until.h"
 
 namespace hovercraft_ros::testing {
 namespace {
@@ -28,16 +30,12 @@ constexpr const char* kContactsTopic = "/hovercraft_sim/contacts";
 struct Flight {
   Flight(const std::string& vehicle, std::uint64_t ticks, const hovercraft::Vector3& thrusts,
          const std::vector<std::string>& others = {}) {
-    Pilot pilot(vehicle);
     std::vector<std::string> vehicles = {vehicle};
     vehicles.insert(vehicles.end(), others.begin(), others.end());
     std::vector<std::string> topics = outputTopics(vehicles);
     topics.emplace_back(kContactsTopic);
     RecordedFlight recorder(topics);
-    pilot.command(thrusts);
-    std_srvs::Trigger resume;
-    EXPECT_TRUE(ros::service::call("/hovercraft_sim/resume", resume));
-    pilot.waitFor("has flown", tickReaches(ticks));
+    fly(vehicle, ticks, thrusts);
     const Recording recording = recorder.finish();
     contacts = recording.messages<Contact>(kContactsTopic);
     states = recording.messages<hovercraft_sim::State>("/" + vehicle + "/state");
@@ -55,6 +53,28 @@ struct Flight {
   std::vector<hovercraft_sim::State> states;
 
  private:
+  /// Commands the thrusts, lets the simulation go on, and waits until it is at the tick.
+  static void fly(const std::string& vehicle, std::uint64_t ticks,
+                  const hovercraft::Vector3& thrusts) {
+    ros::NodeHandle node;
+    std::uint64_t tick = 0;
+    const boost::function<void(const hovercraft_sim::State&)> on_state =
+        [&tick](const hovercraft_sim::State& state) { tick = state.tick; };
+    const ros::Subscriber states =
+        node.subscribe<hovercraft_sim::State>("/" + vehicle + "/state", 1000, on_state);
+    ros::Publisher thrust =
+        node.advertise<hovercraft_sim::ThrustCommand>("/" + vehicle + "/thrust", 1);
+    waitUntil("the simulation hears thrusts", [&] { return thrust.getNumSubscribers() > 0; });
+    hovercraft_sim::ThrustCommand command;
+    command.rear = thrusts.x();
+    command.left = thrusts.y();
+    command.right = thrusts.z();
+    if (hovercraft::norm(thrusts) > 0.0) thrust.publish(command);
+    std_srvs::Trigger resume;
+    EXPECT_TRUE(ros::service::call("/hovercraft_sim/resume", resume));
+    waitUntil("the end of the flight", [&] { return tick >= ticks; });
+  }
+
   /// Up to the last recorded state: a contact after it may have been on its way.
   void expectContactsOfCore(const Recording& recording) {
     const hovercraft::Scenario scenario = recording.scenario();

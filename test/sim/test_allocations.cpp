@@ -118,6 +118,23 @@ TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {
   }
 }
 
+TEST(Allocations, NoneInAStepWithContactsOnceWarmedUp) {
+  Simulation simulation(loadScenario("config/tumble.yaml"));
+  const auto fly = [&simulation] {
+    for (int i = 0; i < 2500; ++i) simulation.step();
+  };
+  fly();
+  EXPECT_FALSE(simulation.state().contacts.empty());
+  simulation.reset(1);
+  const std::size_t at_reset = allocations;
+  simulation.step();  // the memory of contacts grows again with the new state
+  fly();
+  const std::size_t before = allocations;
+  for (int i = 0; i < 200; ++i) simulation.step();
+  EXPECT_EQ(allocations, before);
+  EXPECT_LT(before - at_reset, 40U);
+}
+
 // A log that is never empty must not grow with the length of the run: a million commands, three in
 // waiting, take the memory of a handful.
 TEST(Allocations, OfACommandLogDoNotGrowWithTheRun) {

@@ -43,10 +43,10 @@ std::string nameOf(const ::testing::TestParamInfo<BrokenRule>& rule) {
 const std::vector<BrokenRule> kBrokenKeys = {
     {"UnknownKey", "seed: 7", "sede: 7",
      "sede = 7: unknown key; known here: step_size, integrator, orientation, model, gravity, wind, "
-     "seed, vehicles"},
+     "seed, vehicles, world"},
     {"UnknownVehicleKey", "    mass: 5.5", "    weight: 5.5",
      "vehicles.alpha.weight = 5.5: unknown key; known here: mass, inertia, center_of_mass, parts, "
-     "engines, drag, initial"},
+     "engines, drag, hull, material, initial"},
     {"UnknownEngine", "      left: {", "      port: {",
      "vehicles.alpha.engines.port = {position: [0.2, 0.15, 0.05], direction: [0, -1, 0], "
      "min_thrust: 0, max_thrust: ...: unknown key; known here: rear, left, right"},
