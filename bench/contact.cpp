@@ -94,12 +94,13 @@ void heap(double seconds) {
   }
   world += "  bodies:\n";
   for (int k = 0; k < 100; ++k) {
+    const int layer = k / 9;
     const double turn = 0.37 * k;
     world += fmt::format(
         "    box_{:03}: {{parts: [{{box: {{size: [0.2, 0.2, 0.2]}}, mass: 1}}], initial: "
         "{{position: [{}, {}, {}], rpy: [{}, {}, {}]}}}}\n",
         k, 0.5 * (k % 3 - 1) + 0.01 * (k % 7), 0.5 * (k / 3 % 3 - 1) + 0.01 * (k % 5),
-        0.3 + 0.45 * (k / 9), turn, 0.7 * turn, 1.3 * turn);
+        0.3 + 0.45 * layer, turn, 0.7 * turn, 1.3 * turn);
   }
   std::string yaml = craft("spatial", world);
   const std::string start = "initial: {velocity: [0.5, 0.3, 0], angular_velocity: [0, 0, 0.5]}";
@@ -130,8 +131,9 @@ void energy(int bounces) {
   for (int i = 0; i < 6; ++i) {
     Vector3 size(3.0, 3.0, 3.0);
     Vector3 center(0.0, 0.0, 0.0);
-    size[i / 2] = 1.0;
-    center[i / 2] = (i % 2 == 0 ? 1.0 : -1.0) * (0.5 + 0.5 * (1.2 + 0.2 * (i / 2)));
+    const int axis = i / 2;
+    size[axis] = 1.0;
+    center[axis] = (i % 2 == 0 ? 1.0 : -1.0) * (0.5 + 0.5 * (1.2 + 0.2 * axis));
     world += fmt::format("    wall_{}: {{box: {{size: [{}, {}, {}]}}, position: [{}, {}, {}]}}\n",
                          i, size.x(), size.y(), size.z(), center.x(), center.y(), center.z());
   }
