@@ -69,7 +69,7 @@ struct Flight {
     command.rear = thrusts.x();
     command.left = thrusts.y();
     command.right = thrusts.z();
-    if (hovercraft::norm(thrusts) > 0.0) thrust.publish(command);
+    thrust.publish(command);
     std_srvs::Trigger resume;
     EXPECT_TRUE(ros::service::call("/hovercraft_sim/resume", resume));
     waitUntil("the end of the flight", [&] { return tick >= ticks; });

@@ -70,6 +70,10 @@ RecordedFlight::RecordedFlight(const std::vector<std::string>& topics)
     : path_(folder_.path() + "/flight.bag"),
       recorder_name_("/" + makeNodeName()),
       recorder_(recordCommand(path_, recorder_name_.substr(1), topics)) {
+  // The last topic that the simulation announces: before, one without a publisher would count as
+  // connected.
+  waitUntil("the simulation has announced its topics",
+            [] { return !publishersOf(kScenarioTopic).empty(); });
   for (const std::string& topic : topics) {
     waitUntil("rosbag record is connected to " + topic, [&] {
       if (recorder_.hasEnded()) throw std::runtime_error("rosbag record could not be started");
