@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 
 #include <hovercraft_sim/AppliedCommand.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/bag_writer.h"
@@ -16,6 +19,7 @@
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/replay.h"
 #include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/ros/simulate.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 #include "../support/files.h"
@@ -280,6 +284,27 @@ TEST_F(RecordedRun, ChangesOfTheScenarioAreChecked) {
               replayBag({bag, "", {"vehicles.beta.mass=-3"}}, verdict);
             }).find("must be greater than 0"),
             std::string::npos);
+}
+
+// Boxes, a ball and a hull that fall on an incline: loose bodies and contact forces are part of
+// what determines the state of the craft.
+TEST(Replay, ARunWithContactsIsIdenticalAndItsContactsAreInBagAndCsv) {
+  const TestFolder folder;
+  SimulateRequest request;
+  request.scenario = "config/tumble.yaml";
+  request.duration = "1";
+  request.output = folder.file("run.bag");
+  request.contacts = folder.file("contacts.csv");
+  std::ostringstream messages;
+  simulate(request, messages);
+  std::string verdict;
+  EXPECT_EQ(replayBag({request.output, "", {}}, verdict), 0) << verdict;
+  EXPECT_EQ(verdict.rfind("identical: ", 0), 0U) << verdict;
+  const rosbag::Bag bag(request.output);
+  rosbag::View contacts(bag, rosbag::TopicQuery("/hovercraft_sim/contacts"));
+  EXPECT_GT(contacts.size(), 10U);
+  const std::string csv = hovercraft::testing::contentOf(request.contacts);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + static_cast<int>(contacts.size()));
 }
 
 TEST(Recording, WhatIsMissingIsNamed) {
