@@ -241,8 +241,13 @@ void Simulation::stepWorld() {
 
 /// Hands out what happened in the step that just ended.
 void Simulation::report() {
-  std::stable_sort(records_.begin(), records_.end(),
-                   [](const ContactRecord& x, const ContactRecord& y) { return x.time < y.time; });
+  // Few and nearly sorted; std::stable_sort would take memory.
+  const auto is_earlier = [](const ContactRecord& x, const ContactRecord& y) {
+    return x.time < y.time;
+  };
+  for (auto next = records_.begin(); next != records_.end(); ++next) {
+    std::rotate(std::upper_bound(records_.begin(), next, *next, is_earlier), next, next + 1);
+  }
   const std::int64_t begin_ns = (state_.tick - 1) * scenario_.step_ns;
   for (const ContactRecord& record : records_) {
     ContactEvent event;

@@ -120,6 +120,8 @@ TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {
 
 TEST(Allocations, NoneInAStepWithContactsOnceWarmedUp) {
   Simulation simulation(loadScenario("config/tumble.yaml"));
+  int contacts = 0;
+  simulation.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
   const auto fly = [&simulation] {
     for (int i = 0; i < 2500; ++i) simulation.step();
   };
@@ -133,6 +135,7 @@ TEST(Allocations, NoneInAStepWithContactsOnceWarmedUp) {
   for (int i = 0; i < 200; ++i) simulation.step();
   EXPECT_EQ(allocations, before);
   EXPECT_LT(before - at_reset, 40U);
+  EXPECT_GT(contacts, 200);
 }
 
 // A log that is never empty must not grow with the length of the run: a million commands, three in
