@@ -142,9 +142,8 @@ void measureOurs(const Scene& scene, bool coherent, Score& score) {
 
 #ifdef HOVERCRAFT_BENCH_FCL
 std::shared_ptr<fcl::Convexd> fclBody(const ConvexPolyhedron& body) {
-  auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+  auto vertices = std::make_shared<std::vector<fcl::Vector3d>>(body.vertices());
   auto faces = std::make_shared<std::vector<int>>();
-  for (int i = 0; i < body.vertexCount(); ++i) vertices->push_back(body.vertex(i));
   for (int f = 0; f < body.faceCount(); ++f) {
     const auto ring = body.verticesOf({hovercraft::FeatureKind::kFace, f});
     faces->push_back(static_cast<int>(ring.size()));

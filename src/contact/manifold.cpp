@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/math/contact_tolerances.h"
 
 namespace hovercraft {
 namespace {

@@ -11,6 +11,13 @@ ConvexPolyhedron::ConvexPolyhedron(const std::vector<Vector3>& vertices, const R
   fillSupportMap(data_);
 }
 
+std::vector<Vector3> ConvexPolyhedron::vertices() const {
+  std::vector<Vector3> points;
+  points.reserve(data_.vertices.size());
+  for (const auto& vertex : data_.vertices) points.push_back(vertex.p);
+  return points;
+}
+
 std::vector<std::int32_t> ConvexPolyhedron::verticesOf(Feature feature) const {
   if (feature.kind == FeatureKind::kVertex) return {feature.index};
   if (feature.kind == FeatureKind::kEdge) {

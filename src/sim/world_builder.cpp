@@ -1,46 +1,18 @@
 #include "hovercraft_sim/sim/world_builder.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 #include "hovercraft_sim/geometry/convex_hull.h"
+#include "hovercraft_sim/geometry/polyhedron_shapes.h"
 #include "hovercraft_sim/geometry/triangle_mesh.h"
-#include "hovercraft_sim/math/elementary.h"
 #include "hovercraft_sim/math/rotation.h"
 
 namespace hovercraft {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586476925286766559;
 constexpr int kRoundSides = 24;
 constexpr int kBallHalvings = 2;  // of the edges of an icosahedron: 12, 42, 162 vertices
-
-std::vector<Vector3> boxPoints(const Vector3& size) {
-  std::vector<Vector3> points;
-  for (const double z : {-0.5, 0.5}) {
-    for (const double y : {-0.5, 0.5}) {
-      for (const double x : {-0.5, 0.5}) {
-        points.emplace_back(x * size.x(), y * size.y(), z * size.z());
-      }
-    }
-  }
-  return points;
-}
-
-std::vector<Vector3> circle(double radius, double z) {
-  std::vector<Vector3> points;
-  for (int i = 0; i < kRoundSides; ++i) {
-    const double angle = kTwoPi * i / kRoundSides;
-    points.emplace_back(radius * exactCos(angle), radius * exactSin(angle), z);
-  }
-  return points;
-}
-
-std::vector<Vector3> cylinderPoints(const CylinderShape& cylinder) {
-  std::vector<Vector3> points = circle(cylinder.radius, -0.5 * cylinder.length);
-  for (const Vector3& p : circle(cylinder.radius, 0.5 * cylinder.length)) points.push_back(p);
-  return points;
-}
 
 /// The vertices of an icosahedron and, twice over, the middles of the edges, on the sphere. Two of
 /// its vertices are joined if they are nearest: that is how edges are told.
@@ -72,14 +44,17 @@ std::vector<Vector3> ballPoints(double radius) {
 }
 
 struct HullCorners {
-  std::vector<Vector3> operator()(const BoxShape& box) const { return boxPoints(box.size); }
+  std::vector<Vector3> operator()(const BoxShape& box) const {
+    return boxPolyhedron(box.size).vertices();
+  }
   std::vector<Vector3> operator()(const SphereShape& ball) const { return ballPoints(ball.radius); }
   std::vector<Vector3> operator()(const CylinderShape& cylinder) const {
-    return cylinderPoints(cylinder);
+    return cylinderPolyhedron(cylinder.radius, cylinder.length, kRoundSides).vertices();
   }
   std::vector<Vector3> operator()(const PointsShape& cloud) const { return cloud.points; }
   std::vector<Vector3> operator()(const ConeShape& cone) const {
-    std::vector<Vector3> points = circle(cone.radius, -0.5 * cone.length);
+    auto points = cylinderPolyhedron(cone.radius, cone.length, kRoundSides).vertices();
+    points.resize(kRoundSides);  // the lower rim
     points.emplace_back(0.0, 0.0, 0.5 * cone.length);
     return points;
   }

@@ -51,18 +51,12 @@ void parseMaterials(const ConfigReader& reader, WorldScenario& world) {
   }
 }
 
-/// The corners of the convex hull of points, in their order.
-PointsShape cornersOf(const ConvexPolyhedron& body) {
-  PointsShape shape;
-  for (int i = 0; i < body.vertexCount(); ++i) shape.points.push_back(body.vertex(i));
-  return shape;
-}
-
 PointsShape parseMesh(const ConfigReader& reader, const ScenarioSource& source) {
   reader.allowOnly({"file"});
   const std::string path = meshPath(reader, source);
   try {
-    return cornersOf(polyhedronFromMesh(loadTriangleMesh(path), NonConvexMesh::kTakeHull, path));
+    return PointsShape{
+        polyhedronFromMesh(loadTriangleMesh(path), NonConvexMesh::kTakeHull, path).vertices()};
   } catch (const std::invalid_argument& error) {
     reader.fail("file", error.what());
   }
@@ -132,7 +126,7 @@ void parseSurfaceOf(const ConfigReader& reader, const ScenarioSource& source,
   if (!has_mesh) return;
   // Like its mass, the hull of a mesh is written by numbers, so that the text needs no other file.
   HullScenario hull;
-  hull.shape = cornersOf(convexHull(partPoints(body.parts), reader.where("parts")));
+  hull.shape = PointsShape{convexHull(partPoints(body.parts), reader.where("parts")).vertices()};
   body.hull = hull;
 }
 

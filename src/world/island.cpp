@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "hovercraft_sim/collision/time_of_impact.h"
-#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/world/world.h"
 
 namespace hovercraft {
@@ -21,10 +21,6 @@ Vector3 thrustAt(const ThrustCourse& course, double x) {
   const double middle = 4.0 * x * (1.0 - x);
   const double end = x * (2.0 * x - 1.0);
   return (start * course.start + middle * course.middle) + end * course.end;
-}
-
-const Vector3& positionOf(const BodyState& state) {
-  return std::visit([](const auto& body) -> const Vector3& { return body.p_WB; }, state);
 }
 
 }  // namespace
@@ -144,21 +140,14 @@ ClosestFeatures Island::closestNow(IslandLink& link) {
 
 /// @param by m. @returns whether either body can move that way.
 bool Island::shiftApart(const IslandLink& link, double by) {
-  const Vector3& n = link.closest.nhat_AB_W;
-  double share = 0.0;
-  Vector3 ways[2] = {Vector3::Zero(), Vector3::Zero()};
+  const auto shifts =
+      world_.shiftsApart({link.memory.a, link.memory.b}, link.closest.nhat_AB_W, by, -1);
+  if (!shifts) return false;
   const std::int32_t slots[2] = {link.slot_a, link.slot_b};
-  for (int side = 0; side < 2; ++side) {
-    if (slots[side] == 0) continue;
-    const IslandMember& member = s_.members[at(slots[side] - 1)];
-    ways[side] = world_.bodies_[at(member.index)].model.mobility.inverseMass().cwiseProduct(n);
-    share += dot(n, ways[side]);
-  }
-  if (!(share > 0.0)) return false;
-  for (int side = 0; side < 2; ++side) {
+  for (std::size_t side = 0; side < 2; ++side) {
     if (slots[side] == 0) continue;
     IslandMember& member = s_.members[at(slots[side] - 1)];
-    const Vector3 shift = ((side == 0 ? -by : by) / share) * ways[side];
+    const Vector3& shift = (*shifts)[side];
     std::visit([&](auto& body) { body.p_WB += shift; }, member.state);
     member.pose.p_AB += shift;
   }
@@ -239,7 +228,7 @@ double Island::advance(double now) {
       return to;
     }
     to = now + time;
-    share *= 0.7;
+    share *= kCutShare;
   }
   return now;
 }

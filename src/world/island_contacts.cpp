@@ -2,7 +2,7 @@
 #include <array>
 #include <limits>
 
-#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/world/island.h"
 #include "hovercraft_sim/world/world.h"
 

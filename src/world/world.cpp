@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
-#include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
@@ -36,30 +36,6 @@ double gapOf(const AxisAlignedBox& a, const AxisAlignedBox& b) {
   }
   return gap;
 }
-
-const Vector3& positionOf(const BodyState& state) {
-  return std::visit([](const auto& body) -> const Vector3& { return body.p_WB; }, state);
-}
-
-/// Neighbours are looked for this much farther than a body's own size (-), and ten steps ahead: so
-/// seldom that the search costs nothing, so near that few of them come to nothing.
-constexpr double kRoom = 0.25;
-constexpr double kStepsAhead = 10.0;
-
-/// Room (m) of a body that is alone.
-constexpr double kFarRoom = 1e6;
-
-/// A body whose points came farther than `travel` allows is given twice what it took.
-constexpr double kTravelReserve = 2.0;
-
-/// Bound on how often a step is begun anew with more travel: each time it at least doubles.
-constexpr int kMaxRestarts = 20;
-
-/// Share (-) of the wanted gap from which on a pair counts as set apart.
-constexpr double kPartedShare = 0.9;
-
-/// Bound on the sweeps of partTouching(): the height of a stack squared, for fifty bodies.
-constexpr int kMaxPartingSweeps = 2500;
 
 }  // namespace
 
@@ -250,7 +226,7 @@ bool World::takeIsland() {
 bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<BodyState>& states,
                        const std::vector<ContactMemory>& memory,
                        std::vector<ContactRecord>& records) {
-  next_memory_.clear();
+  collectGroups();
   bool enough = true;
   for (std::size_t first = 0; first < bodies_.size(); ++first) {
     const auto group = static_cast<std::int32_t>(first);
@@ -278,22 +254,19 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
     extents_[i].travel = kTravelReserve * travelOf(i, states[i], ends_[i], rules_.step);
   }
   const std::size_t recorded = records.size();
-  for (int attempt = 0; attempt < kMaxRestarts; ++attempt) {
+  bool done = false;
+  for (int attempt = 0; attempt < kMaxRestarts && !done; ++attempt) {
     findNearPairs(states);
-    if (near_.empty()) {
-      memory.clear();
-      break;
-    }
-    collectGroups();
+    next_memory_.clear();
     records.resize(recorded);
-    if (!stepGroups(drives, states, memory, records)) continue;
-    std::sort(next_memory_.begin(), next_memory_.end(),
-              [](const ContactMemory& x, const ContactMemory& y) {
-                return x.a < y.a || (x.a == y.a && x.b < y.b);
-              });
-    memory.swap(next_memory_);
-    break;
+    done = near_.empty() || stepGroups(drives, states, memory, records);
   }
+  if (!done) ++stalls_;
+  std::sort(next_memory_.begin(), next_memory_.end(),
+            [](const ContactMemory& x, const ContactMemory& y) {
+              return x.a < y.a || (x.a == y.a && x.b < y.b);
+            });
+  memory.swap(next_memory_);
   states.swap(ends_);
 }
 
@@ -337,24 +310,32 @@ bool World::partPair(std::vector<BodyState>& states, const Pair& pair, double wa
                      int only) const {
   const ClosestFeatures closest = closestOf(states, pair);
   if (closest.distance >= kPartedShare * wanted) return false;
+  const auto shifts = shiftsApart(pair, closest.nhat_AB_W, wanted - closest.distance, only);
+  if (!shifts) return false;
   const std::int32_t sides[2] = {pair.first, pair.second};
-  Vector3 ways[2] = {Vector3::Zero(), Vector3::Zero()};
-  double share = 0.0;
-  for (int k = 0; k < 2; ++k) {
-    if (isFixed(sides[k]) || (only >= 0 && sides[k] != only)) continue;
-    const auto i = static_cast<std::size_t>(sides[k]);
-    ways[k] = bodies_[i].model.mobility.inverseMass().cwiseProduct(closest.nhat_AB_W);
-    share += dot(closest.nhat_AB_W, ways[k]);
-  }
-  if (!(share > 0.0)) return false;
-  const double by = (wanted - closest.distance) / share;
-  for (int k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < 2; ++k) {
     if (isFixed(sides[k])) continue;
-    const Vector3 shift = (k == 0 ? -by : by) * ways[k];
-    std::visit([&](auto& state) { state.p_WB += shift; },
+    std::visit([&](auto& state) { state.p_WB += (*shifts)[k]; },
                states[static_cast<std::size_t>(sides[k])]);
   }
   return true;
+}
+
+std::optional<std::array<Vector3, 2>> World::shiftsApart(const Pair& pair, const Vector3& nhat_AB_W,
+                                                         double by, int only) const {
+  const std::int32_t sides[2] = {pair.first, pair.second};
+  std::array<Vector3, 2> shifts = {Vector3::Zero(), Vector3::Zero()};
+  double share = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (isFixed(sides[k]) || (only >= 0 && sides[k] != only)) continue;
+    const auto i = static_cast<std::size_t>(sides[k]);
+    shifts[k] = bodies_[i].model.mobility.inverseMass().cwiseProduct(nhat_AB_W);
+    share += dot(nhat_AB_W, shifts[k]);
+  }
+  if (!(share > 0.0)) return std::nullopt;
+  shifts[0] *= -by / share;
+  shifts[1] *= by / share;
+  return shifts;
 }
 
 void World::partTouching(std::vector<BodyState>& states, int body) const {

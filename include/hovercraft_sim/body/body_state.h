@@ -18,6 +18,10 @@ inline Pose poseOf(const BodyState& state) {
       state);
 }
 
+inline const Vector3& positionOf(const BodyState& state) {
+  return std::visit([](const auto& body) -> const Vector3& { return body.p_WB; }, state);
+}
+
 inline Quaternion orientationOf(const BodyState& state) {
   return std::visit([](const auto& body) { return toQuaternion(body.orientation); }, state);
 }

@@ -88,6 +88,8 @@ class ConvexPolyhedron {
   int edgeCount() const { return static_cast<int>(data_.edges.size()); }
   int faceCount() const { return static_cast<int>(data_.faces.size()); }
   const Vector3& vertex(int index) const { return data_.vertices[at(index)].p; }
+  /// All of them, m, in their order.
+  std::vector<Vector3> vertices() const;
   const PolyhedronData::Edge& edge(int index) const { return data_.edges[at(index)]; }
   const PolyhedronData::Face& face(int index) const { return data_.faces[at(index)]; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -44,7 +45,8 @@ class World {
   const std::string& nameOf(std::int32_t index) const;
   const ConvexPolyhedron& hullOf(std::int32_t index) const;
   int materialOf(std::int32_t index) const;
-  /// How often the bound on the events of a step cut off the rest of it.
+  /// How often a bound cut off the rest of a step: on its events, or on how often it is begun anew
+  /// because bodies came farther than was looked.
   std::int64_t stalls() const { return stalls_; }
 
  private:
@@ -69,6 +71,11 @@ class World {
   bool listGroup(std::int32_t group);
   bool takeIsland();
   ClosestFeatures closestOf(const std::vector<BodyState>& states, const Pair& pair) const;
+  /// The displacements, m, that take the two bodies `by` metres apart along nhat_AB_W, each in
+  /// proportion to its mobility. @param only the one body that may move; -1: both. @returns nothing
+  /// if neither can move that way.
+  std::optional<std::array<Vector3, 2>> shiftsApart(const Pair& pair, const Vector3& nhat_AB_W,
+                                                    double by, int only) const;
   bool partPair(std::vector<BodyState>& states, const Pair& pair, double wanted, int only) const;
   bool stepGroups(const std::vector<BodyDrive>& drives, const std::vector<BodyState>& states,
                   const std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records);

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstddef>
+
+/// Every tolerance and bound of contact and world, with its unit and its reason.
+
+namespace hovercraft {
+
+/// Sine of the angle (-) between a face and the line of the closest points up to which the whole
+/// face counts as in contact: over a metre it hides 1 mm, and the points beyond the band of gaps
+/// are left out one by one.
+constexpr double kFaceAlignment = 1e-3;
+
+/// Sine of the turn (-) below which a corner of a common area is none: over half a side of 0.2 m it
+/// hides 0.1 mm.
+constexpr double kFlatCorner = 1e-3;
+
+/// Distance (-, of the size of the bodies) up to which two points of contact are one: sides that
+/// coincide but for a small angle are cut twice near each corner.
+constexpr double kSamePoint = 1e-3;
+
+/// Speed (-, of the fastest point) below which a point of contact stands still: what the rounding
+/// of an impact leaves, a thousand units in the last place.
+constexpr double kStandingPoint = 1e-13;
+
+/// Change of a velocity (-, of the fastest point) in one sweep at which an impact is solved: a few
+/// units in the last place.
+constexpr double kImpactResidual = 1e-15;
+
+/// Bound on how often a point is relaxed in one round of an impact, all points together: four
+/// points of a face need some hundred each, nearly dependent ones ten thousand.
+constexpr int kMaxImpactRelaxations = 80000;
+
+/// Sweeps (-) that an impact of many points gets in any case.
+constexpr int kMinImpactSweeps = 50;
+
+/// Bound on the rounds of one impact, after which it is plastic. Two points of one body need two or
+/// three.
+constexpr int kMaxImpactRounds = 16;
+
+/// Bound on how often the restitution of a round that gains energy is halved; then it is 0.
+constexpr int kMaxHalvedRestitutions = 8;
+
+/// Gap (-, of the contact tolerance) that resting bodies keep and at which an impact is found: as
+/// far from overlap as from losing touch.
+constexpr double kRestGap = 0.5;
+
+/// Distance (-, of the contact tolerance) beyond which a resting contact is over: far enough that
+/// the noise of a stack does not end it.
+constexpr double kLostContact = 10.0;
+
+/// Share (-) of a missing gap that a resting contact makes up for in a step: the rest comes in the
+/// steps that follow, so that the push is no bounce.
+constexpr double kGapRecovery = 0.2;
+
+/// Speed (m/s) up to which points of an elastic pair stand still: what solving to kRestResidual
+/// leaves, which must not be taken for a bounce.
+constexpr double kStillSpeed = 1e-9;
+
+/// Share (-) of the rest gap that what is left unsolved of a resting contact may take in a step:
+/// the recovery of the gap makes up for it.
+constexpr double kRestResidual = 0.01;
+
+/// Share (-) of the rest gap up to which the approach of a resting pair may eat into it in a step
+/// without being an impact: the force over the step stops it.
+constexpr double kRestApproach = 0.2;
+
+/// Least sweeps (-) of resting contacts: from step to step they bring a stack to its exact forces.
+constexpr int kLeastRestSweeps = 4;
+
+/// Number of points from which on an impact is solved only to kCrowdResidual (-, of the fastest
+/// point): what is left of it is taken up by the resting contacts of the crowd.
+constexpr std::size_t kCrowd = 40;
+constexpr double kCrowdResidual = 1e-5;
+
+/// Bound on how often a point is relaxed in one solve of resting contacts, all points together. The
+/// solve starts from the forces of the last step, so that a stack at rest needs a sweep or two; a
+/// stack of ten that was never solved needs a thousand.
+constexpr int kMaxRestRelaxations = 40000;
+
+/// Sweeps (-) that resting contacts of many points get in any case.
+constexpr int kMinRestSweeps = 30;
+
+/// Gap (-, of the contact tolerance) below which a resting contact is repaired: as long as there is
+/// more, the solver brings it back by itself.
+constexpr double kLeastRestGap = 0.1;
+
+/// Gap (-, of the contact tolerance) up to which a repair moves a pair.
+constexpr double kFairRestGap = 0.4;
+
+/// Bound on the sweeps of a repair: the height of a stack squared, for ten bodies.
+constexpr int kMaxRepairSweeps = 100;
+
+/// Bounces of a pair in one step after which it is plastic: the sum of what would follow is shorter
+/// than the step (Zeno).
+constexpr int kMaxBounces = 8;
+
+/// Bound on the events of a step, of an island without pairs and for each pair, after which all is
+/// plastic; after twice as many the rest of the step is left out.
+constexpr int kMaxEvents = 32;
+constexpr int kMaxEventsPerPair = 2;
+
+/// Bound on how often a piece of a step is cut to the time of impact until the integrator's own
+/// path is clear; each cut shortens the piece's curve by the cube of its length.
+constexpr int kMaxCuts = 10;
+
+/// What is left (-) of the distance that counts as an impact with each such cut.
+constexpr double kCutShare = 0.7;
+
+/// Neighbours are looked for this much farther than a body's own size (-), and ten steps ahead: so
+/// seldom that the search costs nothing, so near that few of them come to nothing.
+constexpr double kRoom = 0.25;
+constexpr double kStepsAhead = 10.0;
+
+/// Room (m) of a body that is alone.
+constexpr double kFarRoom = 1e6;
+
+/// A body whose points came farther than `travel` allows is given twice what it took.
+constexpr double kTravelReserve = 2.0;
+
+/// Bound on how often a step is begun anew with more travel: each time it at least doubles.
+constexpr int kMaxRestarts = 20;
+
+/// Share (-) of the wanted gap from which on a pair counts as set apart.
+constexpr double kPartedShare = 0.9;
+
+/// Bound on the sweeps of partTouching(): the height of a stack squared, for fifty bodies.
+constexpr int kMaxPartingSweeps = 2500;
+
+}  // namespace hovercraft
