@@ -1,7 +1,8 @@
 """Runs clang-tidy on every source of the project that a compile database names.
 
-A source that was found clean is not looked at again until it, a header of the project that it includes, its compile
-command, the configuration or clang-tidy itself changes.
+A source that was found clean is not looked at again, in any checkout of this user, until it, a header or message of the
+project, its compile command, the configuration or a package of the system changes. What was found clean is kept in
+$XDG_CACHE_HOME/hovercraft_sim (~/.cache/hovercraft_sim), as ccache keeps what it compiled.
 
 usage: clang_tidy.py BUILD_FOLDER   (exit status 1 if there is a finding; run in the project's root)
 """
@@ -37,10 +38,18 @@ def project_files(source):
 def key_of(entry, configuration):
     """A digest of all that decides what clang-tidy says about an entry of the compile database."""
     digest = hashlib.sha256(configuration)
-    digest.update(entry['command'].encode())
+    digest.update(entry['command'].replace(str(ROOT), '.').encode())
     for path in project_files(pathlib.Path(entry['file']).resolve()):
-        digest.update(str(path).encode() + b'\0' + path.read_bytes())
+        digest.update(str(path.relative_to(ROOT)).encode() + b'\0' + path.read_bytes())
     return digest.hexdigest()
+
+
+def configuration_of_all():
+    """What decides for every source alike: settings, messages, and the packages with their versions."""
+    settings = [ROOT / '.clang-tidy'] + [ROOT / folder / '.clang-tidy' for folder in FOLDERS]
+    messages = sorted(path for folder in ('msg', 'srv', 'cfg') for path in (ROOT / folder).iterdir())
+    packages = subprocess.run(['dpkg-query', '-W'], stdout=subprocess.PIPE, check=True).stdout
+    return packages + b''.join(path.read_bytes() for path in settings + messages if path.is_file())
 
 
 def tidy(build, entry, stamp):
@@ -55,11 +64,10 @@ def tidy(build, entry, stamp):
 
 def main():
     build = pathlib.Path(sys.argv[1]).resolve()
-    stamps = build / 'clang_tidy'
-    stamps.mkdir(exist_ok=True)
-    version = subprocess.run(['clang-tidy', '--version'], stdout=subprocess.PIPE, check=True).stdout
-    configurations = [ROOT / '.clang-tidy'] + [ROOT / folder / '.clang-tidy' for folder in FOLDERS]
-    configuration = version + b''.join(path.read_bytes() for path in configurations if path.is_file())
+    cache = pathlib.Path(os.environ.get('XDG_CACHE_HOME') or pathlib.Path.home() / '.cache')
+    stamps = cache / 'hovercraft_sim' / 'clang_tidy'
+    stamps.mkdir(parents=True, exist_ok=True)
+    configuration = configuration_of_all()
 
     entries = json.loads((build / 'compile_commands.json').read_text())
     ours = {entry['file']: entry for entry in entries
