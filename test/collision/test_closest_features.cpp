@@ -1,54 +1,11 @@
-#include <cstdlib>
-#include <new>
-
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 
+#include "../support/allocation_counter.h"
 #include "check_query.h"
 #include "random_bodies.h"
-
-namespace {
-
-/// Counts what this executable takes from the heap: operator new ends here.
-long allocations = 0;
-
-void* counted(std::size_t size) {
-  ++allocations;
-  void* memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-void* countedAligned(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto step = static_cast<std::size_t>(alignment);
-  void* memory = std::aligned_alloc(step, (size + step - 1) / step * step);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return countedAligned(size, alignment);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
 
 namespace hovercraft {
 namespace {
@@ -232,13 +189,13 @@ TEST(ClosestFeatures, QueriesDoNotAllocate) {
   for (int i = 0; i < 300; ++i) poses.push_back(random.pose(0.01 * i));
   FeaturePair last;
   int penetrating = 0;
-  const long before = allocations;
+  const long before = testing::allocations;
   for (const Pose& X_WB : poses) {
     FeaturePair fresh;
     if (closestFeatures(A, Pose(), B, X_WB, last).status == Proximity::kPenetrating) ++penetrating;
     if (closestFeatures(A, Pose(), B, X_WB, fresh).status == Proximity::kStepLimit) ++penetrating;
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(testing::allocations, before);
   EXPECT_GT(penetrating, 10);
   EXPECT_GT(before, 300);  // the counter counts
 }

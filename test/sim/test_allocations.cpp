@@ -1,7 +1,5 @@
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,81 +7,23 @@
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/simulation.h"
 
+#include "../support/allocation_counter.h"
 #include "../support/scenario_text.h"
-
-/// Counts what this executable takes from the heap: operator new in every form ends here.
-
-namespace {
-
-std::size_t allocations = 0;
-
-void* counted(std::size_t size) {
-  ++allocations;
-  void* memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-void* countedAligned(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto step = static_cast<std::size_t>(alignment);
-  void* memory = std::aligned_alloc(step, (size + step - 1) / step * step);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  return counted(size);
-}
-void* operator new[](std::size_t size) {
-  return counted(size);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return countedAligned(size, alignment);
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return countedAligned(size, alignment);
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t /*size*/) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
-void operator delete[](void* memory, std::size_t /*size*/,
-                       std::align_val_t /*alignment*/) noexcept {
-  std::free(memory);
-}
 
 namespace hovercraft {
 namespace {
 
+using testing::allocations;
+
 TEST(Allocations, AreCounted) {
-  const std::size_t before = allocations;
+  const long before = allocations;
   std::vector<double> numbers(1);
   numbers.resize(numbers.capacity() + 1);
-  EXPECT_EQ(allocations - before, 2U);
+  EXPECT_EQ(allocations - before, 2);
 }
 
 /// What a step and the pushes before it take from the heap, in 1000 ticks with a command in each.
-std::size_t allocationsWhileDriven(const Scenario& scenario) {
+long allocationsWhileDriven(const Scenario& scenario) {
   Simulation simulation(scenario);
   std::uint64_t applied = 0;
   simulation.on_applied = [&applied](const Command& /*command*/) { ++applied; };
@@ -94,9 +34,9 @@ std::size_t allocationsWhileDriven(const Scenario& scenario) {
     simulation.step();
   };
   advance();  // the log's memory grows once
-  const std::size_t before = allocations;
+  const long before = allocations;
   for (int n = 0; n < 1000; ++n) advance();
-  const std::size_t taken = allocations - before;
+  const long taken = allocations - before;
   EXPECT_EQ(applied, 2002U);
   return taken;
 }
@@ -110,7 +50,7 @@ TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {
         scenario.integrator = integrator;
         scenario.orientation = orientation;
         scenario.model = model;
-        EXPECT_EQ(allocationsWhileDriven(scenario), 0U)
+        EXPECT_EQ(allocationsWhileDriven(scenario), 0)
             << static_cast<int>(integrator) << static_cast<int>(orientation)
             << static_cast<int>(model);
       }
@@ -128,13 +68,13 @@ TEST(Allocations, NoneInAStepWithContactsOnceWarmedUp) {
   fly();
   EXPECT_FALSE(simulation.state().contacts.empty());
   simulation.reset(1);
-  const std::size_t at_reset = allocations;
+  const long at_reset = allocations;
   simulation.step();  // the memory of contacts grows again with the new state
   fly();
-  const std::size_t before = allocations;
+  const long before = allocations;
   for (int i = 0; i < 200; ++i) simulation.step();
   EXPECT_EQ(allocations, before);
-  EXPECT_LT(before - at_reset, 40U);
+  EXPECT_LT(before - at_reset, 40);
   EXPECT_GT(contacts, 200);
 }
 
@@ -149,7 +89,7 @@ TEST(Allocations, OfACommandLogDoNotGrowWithTheRun) {
     push();
     log.takeDue(tick);
   }
-  const std::size_t before = allocations;
+  const long before = allocations;
   for (Tick tick = 10; tick < 1000000; ++tick) {
     push();
     log.takeDue(tick);
@@ -159,7 +99,7 @@ TEST(Allocations, OfACommandLogDoNotGrowWithTheRun) {
 
 TEST(Allocations, NoneInReportingAStep) {
   const Simulation simulation(testing::parsed(testing::validScenario()));
-  const std::size_t before = allocations;
+  const long before = allocations;
   const Motion motion = simulation.motion(0);
   const EngineReport report = simulation.engineReport(0, 0);
   const std::uint64_t hash = simulation.hash();

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+/// Counts what an executable takes from the heap: operator new in every form ends here. To be
+/// included by one of its sources only, as it replaces the operators.
+
+namespace hovercraft::testing {
+
+inline long allocations = 0;
+
+inline void* countedOrNull(std::size_t size) {
+  ++allocations;
+  return std::malloc(size == 0 ? 1 : size);
+}
+
+inline void* counted(std::size_t size) {
+  void* memory = countedOrNull(size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+inline void* countedAligned(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto step = static_cast<std::size_t>(alignment);
+  void* memory = std::aligned_alloc(step, (size + step - 1) / step * step);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace hovercraft::testing
+
+void* operator new(std::size_t size) {
+  return hovercraft::testing::counted(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return hovercraft::testing::countedOrNull(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return hovercraft::testing::countedAligned(size, alignment);
+}
+void* operator new[](std::size_t size) {
+  return hovercraft::testing::counted(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+  return hovercraft::testing::countedOrNull(size);
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return hovercraft::testing::countedAligned(size, alignment);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, const std::nothrow_t& /*tag*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, const std::nothrow_t& /*tag*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/,
+                       std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
