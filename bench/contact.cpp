@@ -85,7 +85,7 @@ void stepCost() {
 /// 100 boxes fall into a pen.
 void heap(double seconds) {
   std::string world =
-      "world:\n  materials: {default: {restitution: 0, friction: 0.5}}\n  obstacles:\n"
+      "world:\n  tolerance: 1e-5\n  materials: {default: {restitution: 0, friction: 0.5}}\n  obstacles:\n"
       "    floor: {box: {size: [6, 6, 1]}, position: [0, 0, -0.5]}\n";
   const char* const places[] = {"[1.5, 0, 4]", "[-1.5, 0, 4]", "[0, 1.5, 4]", "[0, -1.5, 4]"};
   for (int i = 0; i < 4; ++i) {
@@ -104,7 +104,7 @@ void heap(double seconds) {
   }
   std::string yaml = craft("spatial", world);
   const std::string start = "initial: {velocity: [0.5, 0.3, 0], angular_velocity: [0, 0, 0.5]}";
-  yaml.replace(yaml.find(start), start.size(), "initial: {position: [0, 0, 100]}");
+  yaml.replace(yaml.find(start), start.size(), "initial: {position: [100, 0, 0]}");
   yaml.insert(0, "gravity: [0, 0, -9.81]\n");
   Simulation simulation(parsed(yaml));
   double stepping = 0.0;

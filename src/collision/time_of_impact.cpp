@@ -184,19 +184,26 @@ bool apart(const ClosestFeatures& closest, double tolerance) {
   return closest.status == Proximity::kSeparated && closest.distance > tolerance;
 }
 
-/// Half of the tolerance is left to the rounding of the last step.
-TimeOfImpact advance(Scene& scene, const RelativeMotion& motion, const ImpactSearch& search) {
+/// For how long the bodies certainly stay farther than half of the tolerance apart: the other half
+/// is left to the rounding of the last step.
+double clearTime(const RelativeMotion& motion, const ClosestFeatures& now, double t,
+                 double tolerance) {
+  ClosestFeatures gap = now;
+  gap.distance -= 0.5 * tolerance;
+  return motion.clearTime(gap, t);
+}
+
+TimeOfImpact advance(Scene& scene, const ClosestFeatures& start, const RelativeMotion& motion,
+                     const ImpactSearch& search) {
   TimeOfImpact result;
-  ClosestFeatures now = scene.at(0.0);
+  ClosestFeatures now = start;
   double t = 0.0;
   while (apart(now, search.tolerance)) {
     if (scene.queries() >= kMaxImpactQueries) {
       result.status = ImpactStatus::kQueryLimit;
       break;
     }
-    ClosestFeatures gap = now;
-    gap.distance -= 0.5 * search.tolerance;
-    const double clear = motion.clearTime(gap, t);
+    const double clear = clearTime(motion, now, t, search.tolerance);
     result.closest = now;
     result.time = t;
     if (t + clear >= search.duration) {
@@ -281,8 +288,16 @@ TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
     result.queries = scene.queries();
     return result;
   }
-  return search.method == ImpactMethod::kAdvance ? advance(scene, motion, search)
+  return search.method == ImpactMethod::kAdvance ? advance(scene, start, motion, search)
                                                  : bisect(scene, motion, search);
+}
+
+bool isClear(const ConvexPolyhedron& A, const StepMotion& motion_A, const ConvexPolyhedron& B,
+             const StepMotion& motion_B, const ClosestFeatures& start, const ImpactSearch& search) {
+  check(search);
+  if (!apart(start, search.tolerance)) return false;
+  const RelativeMotion motion(A, motion_A, B, motion_B, search.duration);
+  return clearTime(motion, start, 0.0, search.tolerance) >= search.duration;
 }
 
 VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion, const Plane& plane,

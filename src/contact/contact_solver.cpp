@@ -33,22 +33,37 @@ std::int32_t ContactSolver::add(const ContactBody& body) {
   return static_cast<std::int32_t>(bodies_.size() - 1);
 }
 
-ContactSolver::Direction ContactSolver::direction(const Point& point, const Vector3& d) const {
+/// What an impulse on B, and against A, makes of the velocity of B against A there, m/s.
+Vector3 ContactSolver::velocityOf(const Point& point, const Vector3& impulse) const {
   const ContactBody& A = bodies_[static_cast<std::size_t>(point.a)];
   const ContactBody& B = bodies_[static_cast<std::size_t>(point.b)];
-  Direction result;
-  result.d = d;
-  result.linear_a = A.inverse_mass.cwiseProduct(d);
-  result.linear_b = B.inverse_mass.cwiseProduct(d);
-  const Vector3 arm_a = cross(point.r_a, d);
-  const Vector3 arm_b = cross(point.r_b, d);
-  result.angular_a = times(A.inverse_inertia, arm_a);
-  result.angular_b = times(B.inverse_inertia, arm_b);
-  const double inverse = (dot(d, result.linear_a) + dot(d, result.linear_b)) +
-                         (dot(arm_a, result.angular_a) + dot(arm_b, result.angular_b));
-  result.mass = inverse > 0.0 ? 1.0 / inverse : 0.0;
-  result.lambda = 0.0;
-  return result;
+  const Vector3 spin_a = times(A.inverse_inertia, cross(point.r_a, impulse));
+  const Vector3 spin_b = times(B.inverse_inertia, cross(point.r_b, impulse));
+  const Vector3 linear = (A.inverse_mass + B.inverse_mass).cwiseProduct(impulse);
+  return linear + (cross(spin_a, point.r_a) + cross(spin_b, point.r_b));
+}
+
+/// What the impulses of a point do, from the velocities that a unit impulse along each direction
+/// makes.
+void ContactSolver::weigh(Point& point, const Vector3 (&velocities)[3]) {
+  const Vector3& s = point.directions[1];
+  const Vector3& t = point.directions[2];
+  for (int i = 0; i < 3; ++i) {
+    point.inverse_mass[i] = std::max(0.0, dot(point.directions[i], velocities[i]));
+  }
+  const auto inverse = [](double x) { return x > 0.0 ? 1.0 / x : 0.0; };
+  const double k_s = point.inverse_mass.y();
+  const double k_t = point.inverse_mass.z();
+  const double k_st = dot(t, velocities[1]);
+  point.normal_to_s = dot(s, velocities[0]);
+  point.normal_to_t = dot(t, velocities[0]);
+  point.normal_mass = inverse(point.inverse_mass.x());
+  const double per_determinant = inverse(k_s * k_t - k_st * k_st);
+  point.stop_ss = per_determinant > 0.0 ? k_t * per_determinant : inverse(k_s);
+  point.stop_st = -k_st * per_determinant;
+  point.stop_tt = per_determinant > 0.0 ? k_s * per_determinant : inverse(k_t);
+  const double spread = 0.5 * (k_s - k_t);
+  point.slip_mass = inverse(0.5 * (k_s + k_t) + std::sqrt(spread * spread + k_st * k_st));
 }
 
 std::size_t ContactSolver::add(const ContactDemand& asked) {
@@ -63,165 +78,89 @@ std::size_t ContactSolver::add(const ContactDemand& asked) {
   point.target = asked.target;
   point.friction = asked.friction;
   point.bilateral = asked.bilateral;
-  const Vector3 t = tangentTo(asked.nhat_AB_W);
-  point.directions[0] = direction(point, asked.nhat_AB_W);
-  point.directions[1] = direction(point, t);
-  point.directions[2] = direction(point, cross(asked.nhat_AB_W, t));
-  const Direction& second = point.directions[2];
-  const Vector3& first = point.directions[1].d;
-  point.coupling = (dot(first, second.linear_a) + dot(first, second.linear_b)) +
-                   (dot(cross(point.r_a, first), second.angular_a) +
-                    dot(cross(point.r_b, first), second.angular_b));
-  const double inverse_s = point.directions[1].mass > 0.0 ? 1.0 / point.directions[1].mass : 0.0;
-  const double inverse_t = second.mass > 0.0 ? 1.0 / second.mass : 0.0;
-  const double spread = 0.5 * (inverse_s - inverse_t);
-  const double largest =
-      0.5 * (inverse_s + inverse_t) + std::sqrt(spread * spread + point.coupling * point.coupling);
-  point.slip_mass = largest > 0.0 ? 1.0 / largest : 0.0;
-  for (Direction& along : point.directions) {
-    const double start = along.mass > 0.0 ? dot(along.d, asked.start) : 0.0;
-    along.lambda = &along == &point.directions[0] ? std::max(0.0, start) : start;
-    if (along.lambda != 0.0) apply(point, along, along.lambda);
+  point.directions[0] = asked.nhat_AB_W;
+  point.directions[1] = tangentTo(asked.nhat_AB_W);
+  point.directions[2] = cross(asked.nhat_AB_W, point.directions[1]);
+  weigh(point, {velocityOf(point, point.directions[0]), velocityOf(point, point.directions[1]),
+                velocityOf(point, point.directions[2])});
+  for (int i = 0; i < 3; ++i) {
+    point.lambda[i] = point.inverse_mass[i] > 0.0 ? dot(point.directions[i], asked.start) : 0.0;
   }
+  point.lambda[0] = std::max(0.0, point.lambda[0]);
+  if (squaredNorm(point.lambda) > 0.0) apply(point, inWorld(point, point.lambda));
   points_.push_back(point);
   return points_.size() - 1;
 }
 
-Vector3 ContactSolver::velocity(const Point& point) const {
-  const Twist& A = bodies_[static_cast<std::size_t>(point.a)].twist;
-  const Twist& B = bodies_[static_cast<std::size_t>(point.b)].twist;
-  return (B.v_WB - A.v_WB) + (cross(B.w_WB, point.r_b) - cross(A.w_WB, point.r_a));
-}
-
-Vector3 ContactSolver::velocityAt(std::size_t point) const {
-  return velocity(points_[point]);
-}
-
-Vector3 ContactSolver::impulse(std::size_t point) const {
-  const Point& at = points_[point];
-  return (at.directions[0].lambda * at.directions[0].d +
-          at.directions[1].lambda * at.directions[1].d) +
-         at.directions[2].lambda * at.directions[2].d;
-}
-
-void ContactSolver::apply(const Point& point, const Direction& direction, double impulse) {
-  Twist& A = bodies_[static_cast<std::size_t>(point.a)].twist;
-  Twist& B = bodies_[static_cast<std::size_t>(point.b)].twist;
-  A.v_WB -= impulse * direction.linear_a;
-  A.w_WB -= impulse * direction.angular_a;
-  B.v_WB += impulse * direction.linear_b;
-  B.w_WB += impulse * direction.angular_b;
-}
-
-double ContactSolver::relaxNormal(Point& point) {
-  Direction& n = point.directions[0];
-  if (!(n.mass > 0.0)) return 0.0;
-  const double error = point.target - dot(n.d, velocity(point));
-  double lambda = n.lambda + n.mass * error;
-  if (!point.bilateral) lambda = std::max(0.0, lambda);
-  const double change = lambda - n.lambda;
-  n.lambda = lambda;
-  if (change != 0.0) apply(point, n, change);
-  return std::abs(change) / n.mass;
-}
-
-/// The impulses along both tangents that stop the slip at the point, given what it is now.
-ContactSolver::Tangential ContactSolver::stopping(const Point& point, double v_s, double v_t) {
-  const Direction& s = point.directions[1];
-  const Direction& t = point.directions[2];
-  const double k = point.coupling;
-  const double determinant = s.mass > 0.0 && t.mass > 0.0 ? 1.0 / (s.mass * t.mass) - k * k : 0.0;
-  if (!(determinant > 0.0)) return {s.lambda - s.mass * v_s, t.lambda - t.mass * v_t};
-  return {s.lambda - (v_s / t.mass - k * v_t) / determinant,
-          t.lambda - (v_t / s.mass - k * v_s) / determinant};
-}
-
-/// Both tangents at once: the impulse that stops the slip, if the cone holds it; else a step
+/// Both tangents at once: the impulse that stops the slip v, if the cone holds it; else a step
 /// against the slip, projected on the cone, whose fixed point is an impulse at the bound against
 /// the slip.
-double ContactSolver::relaxTangents(Point& point) {
-  Direction& s = point.directions[1];
-  Direction& t = point.directions[2];
-  const Vector3 v = velocity(point);
-  const double v_s = s.mass > 0.0 ? dot(s.d, v) : 0.0;
-  const double v_t = t.mass > 0.0 ? dot(t.d, v) : 0.0;
-  Tangential lambda = stopping(point, v_s, v_t);
-  const double pressed = point.directions[0].lambda;
+inline void ContactSolver::relaxTangents(Point& point, double v_s, double v_t) {
+  double s = point.lambda.y() - (point.stop_ss * v_s + point.stop_st * v_t);
+  double t = point.lambda.z() - (point.stop_st * v_s + point.stop_tt * v_t);
+  const double pressed = point.lambda.x();
   const double bound = pressed > 0.0 ? point.friction * pressed : 0.0;
-  if (!point.bilateral && lambda.s * lambda.s + lambda.t * lambda.t > bound * bound) {
-    lambda = {s.lambda - point.slip_mass * v_s, t.lambda - point.slip_mass * v_t};
-    const double size = std::sqrt(lambda.s * lambda.s + lambda.t * lambda.t);
+  if (!point.bilateral && s * s + t * t > bound * bound) {
+    s = point.inverse_mass.y() > 0.0 ? point.lambda.y() - point.slip_mass * v_s : 0.0;
+    t = point.inverse_mass.z() > 0.0 ? point.lambda.z() - point.slip_mass * v_t : 0.0;
+    const double size = std::sqrt(s * s + t * t);
     const double share = size > bound ? bound / size : 1.0;
-    lambda = {share * lambda.s, share * lambda.t};
+    s *= share;
+    t *= share;
   }
-  return std::max(change(point, s, lambda.s), change(point, t, lambda.t));
+  point.lambda.y() = s;
+  point.lambda.z() = t;
 }
 
-/// @returns the change of the velocity along a direction that its new impulse makes, m/s.
-double ContactSolver::change(const Point& point, Direction& along, double lambda) {
-  if (!(along.mass > 0.0)) return 0.0;
-  const double by = lambda - along.lambda;
-  along.lambda = lambda;
-  if (by != 0.0) apply(point, along, by);
-  return std::abs(by) / along.mass;
-}
-
-/// @returns the largest change of a velocity that it made, m/s.
-double ContactSolver::relax(Point& point) {
-  const double changed = relaxNormal(point);
-  if (!(point.friction > 0.0) && !point.bilateral) return changed;
-  return std::max(changed, relaxTangents(point));
-}
-
-/// Sets every impulse aside, to see afterwards what a sweep did.
-void ContactSolver::keepImpulses() {
-  before_.resize(3 * points_.size());
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i) before_[3 * k + i] = points_[k].directions[i].lambda;
+/// The normal, then the tangents as it leaves them. @returns the largest change of a velocity along
+/// one of them that its new impulse makes, m/s.
+inline double ContactSolver::relax(Point& point) {
+  const Vector3 before = point.lambda;
+  const Vector3 v = velocity(point);
+  const double pressed =
+      before.x() + point.normal_mass * (point.target - dot(point.directions[0], v));
+  point.lambda.x() = point.bilateral ? pressed : std::max(0.0, pressed);
+  if (point.friction > 0.0 || point.bilateral) {
+    const double by = point.lambda.x() - before.x();
+    relaxTangents(point, dot(point.directions[1], v) + point.normal_to_s * by,
+                  dot(point.directions[2], v) + point.normal_to_t * by);
   }
-}
-
-/// The change of the last sweep as a step of the search, and how long it is (J).
-double ContactSolver::lengthOfSweep() const {
-  double length = 0.0;
-  for (std::size_t k = 0; k < points_.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Direction& along = points_[k].directions[i];
-      if (!(along.mass > 0.0)) continue;
-      const double change = along.lambda - before_[3 * k + i];
-      length += change * change / along.mass;
-    }
-  }
-  return length;
+  const Vector3 by = point.lambda - before;
+  const double changed = by.cwiseAbs().cwiseProduct(point.inverse_mass).maxCoeff();
+  if (changed > 0.0) apply(point, inWorld(point, by));
+  return changed;
 }
 
 /// Goes on by `share` of the last search direction, and makes the next one of both.
 void ContactSolver::goOn(double share) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point& point = points_[k];
-    for (std::size_t i = 0; i < 3; ++i) {
-      Direction& along = point.directions[i];
-      const double ahead = share * search_[3 * k + i];
-      search_[3 * k + i] = ahead + (along.lambda - before_[3 * k + i]);
-      if (ahead == 0.0 || !(along.mass > 0.0)) continue;
-      along.lambda += ahead;
-      apply(point, along, ahead);
-    }
+    const Vector3 ahead = share * search_[k];
+    search_[k] = ahead + (point.lambda - before_[k]);
+    if (!(squaredNorm(ahead) > 0.0)) continue;
+    point.lambda += ahead;
+    apply(point, inWorld(point, ahead));
   }
 }
 
 int ContactSolver::solve(const Limits& limits) {
-  search_.assign(3 * points_.size(), 0.0);
+  search_.assign(points_.size(), Vector3::Zero());
+  before_.resize(points_.size());
   double last_length = 0.0;
   int sweep = 0;
   while (true) {
-    keepImpulses();
     double changed = 0.0;
-    for (Point& point : points_) changed = std::max(changed, relax(point));
+    double length = 0.0;  // J, of the change that the sweep makes
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      Point& point = points_[k];
+      before_[k] = point.lambda;
+      changed = std::max(changed, relax(point));
+      const Vector3 by = point.lambda - before_[k];
+      length += dot(by, Vector3(by.cwiseProduct(point.inverse_mass)));
+    }
     ++sweep;
     if (sweep >= limits.sweeps) break;
     if (changed <= limits.tolerance && sweep >= limits.least_sweeps) break;
-    const double length = lengthOfSweep();
     goOn(last_length > 0.0 && length <= last_length ? length / last_length : 0.0);
     last_length = length;
   }

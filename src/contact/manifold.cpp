@@ -225,17 +225,14 @@ ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
   const int face_B = faceAlong(B, X_WB, -closest.nhat_AB_W, along_B);
   if (along_A >= aligned && along_A >= along_B) {
     manifold.nhat_AB_W = times(X_WA.R_AB, A.face(face_A).normal);
-    manifold.face_owner = 0;
     if (faceManifold({A, X_WA}, face_A, {B, X_WB}, manifold, band)) return manifold;
   } else if (along_B >= aligned) {
     manifold.nhat_AB_W = -times(X_WB.R_AB, B.face(face_B).normal);
-    manifold.face_owner = 1;
     if (faceManifold({B, X_WB}, face_B, {A, X_WA}, manifold, band)) return manifold;
   } else if (edgeManifold(A, X_WA, B, X_WB, closest, manifold)) {
     return manifold;
   }
   manifold.nhat_AB_W = closest.nhat_AB_W;
-  manifold.face_owner = -1;
   manifold.points[0] = {0.5 * (closest.p_WCa + closest.p_WCb), closest.distance};
   manifold.count = 1;
   return manifold;

@@ -94,7 +94,7 @@ void Island::look(double left) {
   }
 }
 
-/// Sets resting bodies apart again whose gap is nearly used up, by shifts of a part of the
+/// Sets bodies apart again whose gap is nearly used up, by shifts of a part of the
 /// tolerance, as their masses share them. All of it is undone if some pair would be left without a
 /// gap. @returns whether bodies were moved.
 bool Island::repair() {
@@ -102,7 +102,7 @@ bool Island::repair() {
   const double wanted = kRestGap * tolerance;
   double least = wanted;
   for (const IslandLink& link : s_.links) {
-    if (link.memory.resting) least = std::min(least, link.closest.distance);
+    if (link.touching) least = std::min(least, link.closest.distance);
   }
   if (least >= (stuck_ ? kFairRestGap : kLeastRestGap) * tolerance) return false;
   for (IslandMember& member : s_.members) member.end = member.state;
@@ -115,6 +115,7 @@ bool Island::repair() {
     member.state = member.end;
     member.pose = poseOf(member.state);
   }
+  for (IslandLink& link : s_.links) closestNow(link);
   return false;
 }
 
@@ -188,9 +189,14 @@ bool Island::firstImpact(double duration, double share, double& time) const {
     if (!(within > 0.0)) continue;
     const std::int32_t a = link.memory.a;
     const std::int32_t b = link.memory.b;
+    const StepMotion motion_a = motionOfIndex(a);
+    const StepMotion motion_b = motionOfIndex(b);
+    const ImpactSearch search = {time, within, ImpactMethod::kAdvance};
+    if (isClear(world_.hullOf(a), motion_a, world_.hullOf(b), motion_b, link.closest, search)) {
+      continue;
+    }
     const TimeOfImpact impact =
-        timeOfImpact(world_.hullOf(a), motionOfIndex(a), world_.hullOf(b), motionOfIndex(b),
-                     {time, within, ImpactMethod::kAdvance});
+        timeOfImpact(world_.hullOf(a), motion_a, world_.hullOf(b), motion_b, search);
     if (impact.status == ImpactStatus::kNone || impact.time >= time) continue;
     any = true;
     time = impact.time;
@@ -227,7 +233,7 @@ double Island::advance(double now) {
       }
       return to;
     }
-    to = now + time;
+    to = now + (cut < kImpactCuts ? time : std::min(time, 0.5 * duration));
     share *= kCutShare;
   }
   return now;

@@ -187,36 +187,6 @@ void Island::report(double now) {
   }
 }
 
-/// How much faster a point parts at the end of the piece without contact than the same velocities
-/// would have it part from where the bodies are now, m/s: a corner goes round with its body, and a
-/// normal with its face.
-double Island::curvature(const IslandLink& link, const Vector3& p_WC) const {
-  const Vector3& n = link.manifold.nhat_AB_W;
-  const int corner_of = link.manifold.face_owner == 0 ? 1 : 0;
-  const std::int32_t slots[2] = {link.slot_a, link.slot_b};
-  Vector3 p_end = p_WC;
-  if (slots[corner_of] != 0) {
-    const IslandMember& member = s_.members[at(slots[corner_of] - 1)];
-    p_end = transform(member.end_pose, inverseTransform(member.pose, p_WC));
-  }
-  Vector3 n_end = n;
-  const int owner = link.manifold.face_owner;
-  if (owner >= 0 && slots[owner] != 0) {
-    const IslandMember& member = s_.members[at(slots[owner] - 1)];
-    n_end = times(member.end_pose.R_AB, transposeTimes(member.pose.R_AB, n));
-  }
-  double faster = 0.0;
-  for (int side = 0; side < 2; ++side) {
-    if (slots[side] == 0) continue;
-    const IslandMember& member = s_.members[at(slots[side] - 1)];
-    const Twist& twist = s_.solver.bodies()[at(slots[side])].twist;
-    const double difference = dot(n_end, velocityOfPoint(twist, p_end, member.end_pose.p_AB)) -
-                              dot(n, velocityOfPoint(twist, p_WC, member.pose.p_AB));
-    faster += side == 0 ? -difference : difference;
-  }
-  return faster;
-}
-
 /// Asks the points of a pair to stay apart until the end of the piece. @returns whether it has any.
 bool Island::addRestPoints(IslandLink& link, double left) {
   const WorldRules& rules = world_.rules_;
@@ -263,7 +233,6 @@ void Island::press(double now) {
     member.contact = Wrench();
     if (!any_touch) continue;
     member.end = moved(member, now, world_.rules_.step, false);
-    member.end_pose = poseOf(member.end);
   }
   if (!any_touch) {
     for (IslandLink& link : s_.links) link.memory.count = 0;

@@ -45,6 +45,13 @@ TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
                           const ConvexPolyhedron& B, const StepMotion& motion_B,
                           const ImpactSearch& search);
 
+/// Whether the first bound of kAdvance shows already that there is no impact: two bodies that are
+/// far apart, or move alike, need no query at all. @param start their closest features at t = 0.
+/// @returns false if only a search can tell.
+/// @throws std::logic_error if duration or tolerance are not positive.
+bool isClear(const ConvexPolyhedron& A, const StepMotion& motion_A, const ConvexPolyhedron& B,
+             const StepMotion& motion_B, const ClosestFeatures& start, const ImpactSearch& search);
+
 /// A fixed plane: normal · x = offset.
 struct Plane {
   Vector3 normal = Vector3::Zero();  // unit, to the free side

@@ -65,60 +65,65 @@ class ContactSolver {
   const std::vector<ContactBody>& bodies() const { return bodies_; }
   std::size_t pointCount() const { return points_.size(); }
   /// Velocity of B against A at a point, in W, m/s.
-  Vector3 velocityAt(std::size_t point) const;
+  Vector3 velocityAt(std::size_t point) const { return velocity(points_[point]); }
   /// Where it acts, m, in W.
   Vector3 positionOf(std::size_t point) const {
     const Point& at = points_[point];
     return bodies_[static_cast<std::size_t>(at.a)].p_WB + at.r_a;
   }
   /// The impulse on B, N s, in W.
-  Vector3 impulse(std::size_t point) const;
+  Vector3 impulse(std::size_t point) const {
+    return inWorld(points_[point], points_[point].lambda);
+  }
 
  private:
-  /// One direction of a point: what a unit impulse does to both bodies.
-  struct Direction {
-    Vector3 d;         // unit, in W
-    Vector3 linear_a;  // m/s per N s
-    Vector3 linear_b;
-    Vector3 angular_a;  // rad/s per N s
-    Vector3 angular_b;
-    double mass;    // kg: N s per m/s; 0 where neither body can move
-    double lambda;  // N s
-  };
   struct Point {
     std::int32_t a;
     std::int32_t b;
     Vector3 r_a;  // m, from the centre of mass
     Vector3 r_b;
-    double target;
+    Vector3 directions[3];  // unit, in W: normal and two tangents
+    Vector3 lambda;         // N s, along them, on B
+    Vector3 inverse_mass;   // 1/kg: what a unit impulse along each does along itself
+    double normal_to_s;     // 1/kg: ... along the normal does along the first tangent
+    double normal_to_t;     // ... along the second
+    double normal_mass;     // kg; 0 where neither body can move
+    double stop_ss;         // kg: the impulse along the tangents that stops a slip along them
+    double stop_st;
+    double stop_tt;
+    double slip_mass;  // kg, the least along any tangent
+    double target;     // m/s
     double friction;
     bool bilateral;
-    double slip_mass;  // kg, the least along any tangent
-    double coupling;   // 1/kg: what a unit impulse along the second tangent does along the first
-    Direction directions[3];  // normal and two tangents
   };
 
-  Direction direction(const Point& point, const Vector3& d) const;
-  Vector3 velocity(const Point& point) const;
-  void apply(const Point& point, const Direction& direction, double impulse);
-  void keepImpulses();
-  double lengthOfSweep() const;
-  void goOn(double share);
-  /// Impulses along the tangents, N s.
-  struct Tangential {
-    double s;
-    double t;
-  };
-  static Tangential stopping(const Point& point, double v_s, double v_t);
-  double change(const Point& point, Direction& along, double lambda);
+  static Vector3 inWorld(const Point& point, const Vector3& along) {
+    return (along.x() * point.directions[0] + along.y() * point.directions[1]) +
+           along.z() * point.directions[2];
+  }
+  Vector3 velocity(const Point& point) const {
+    const Twist& A = bodies_[static_cast<std::size_t>(point.a)].twist;
+    const Twist& B = bodies_[static_cast<std::size_t>(point.b)].twist;
+    return (B.v_WB - A.v_WB) + (cross(B.w_WB, point.r_b) - cross(A.w_WB, point.r_a));
+  }
+  void apply(const Point& point, const Vector3& impulse) {
+    ContactBody& A = bodies_[static_cast<std::size_t>(point.a)];
+    ContactBody& B = bodies_[static_cast<std::size_t>(point.b)];
+    A.twist.v_WB -= A.inverse_mass.cwiseProduct(impulse);
+    A.twist.w_WB -= times(A.inverse_inertia, cross(point.r_a, impulse));
+    B.twist.v_WB += B.inverse_mass.cwiseProduct(impulse);
+    B.twist.w_WB += times(B.inverse_inertia, cross(point.r_b, impulse));
+  }
+  Vector3 velocityOf(const Point& point, const Vector3& impulse) const;
+  static void weigh(Point& point, const Vector3 (&velocities)[3]);
+  static void relaxTangents(Point& point, double v_s, double v_t);
   double relax(Point& point);
-  double relaxNormal(Point& point);
-  double relaxTangents(Point& point);
+  void goOn(double share);
 
   std::vector<ContactBody> bodies_;
   std::vector<Point> points_;
-  std::vector<double> before_;  // N s, three for each point
-  std::vector<double> search_;  // N s
+  std::vector<Vector3> before_;  // N s: the impulses before the last sweep
+  std::vector<Vector3> search_;  // N s
 };
 
 }  // namespace hovercraft

@@ -20,9 +20,6 @@ struct ContactManifold {
   Vector3 nhat_AB_W = Vector3::Zero();  // unit, from A to B, the same for all points
   std::array<ContactPoint, kMaxPoints> points;
   int count = 0;
-  /// Whose face the normal stands on: 0 A, 1 B, -1 neither (edges, corners). The points are corners
-  /// of the other body then.
-  int face_owner = -1;
 };
 
 /// The points of a pair whose gap is at most `band`.

@@ -32,7 +32,6 @@ struct IslandMember {
   BodyState state;
   BodyState end;
   Pose pose;
-  Pose end_pose;   // at the end of the piece without contact
   Wrench contact;  // constant force and moment over the piece of a step
   StepMotion motion;
   double travelled = 0.0;  // m
@@ -74,7 +73,6 @@ class Island {
   bool isStruck() const;
   void report(double now);
   void press(double now);
-  double curvature(const IslandLink& link, const Vector3& p_WC) const;
   bool addRestPoints(IslandLink& link, double left);
   void takeForces(double now, double left);
   double advance(double now);
