@@ -111,6 +111,66 @@ TEST(TimeOfImpact, BodiesThatOverlapAtTheStartAreReported) {
   EXPECT_THROW(timeOfImpact(cube, StepMotion(), cube, StepMotion(), {0.0, 1e-6}), std::logic_error);
 }
 
+/// Two boxes whose faces look at each other, nearly parallel, a small gap apart.
+struct FacingBoxes {
+  ConvexPolyhedron A = boxPolyhedron(Vector3(0.2, 0.2, 0.2));
+  StepMotion motion_A;
+  StepMotion motion_B;
+
+  explicit FacingBoxes(RandomBodies& random) {
+    const double tilt = std::pow(10.0, random.uniform(-7.0, -1.0));
+    motion_B.q_WB = quaternionFromAxisAngle(random.unitVector(), tilt);
+    motion_B.p_WB = Vector3(random.uniform(-0.15, 0.15), random.uniform(-0.15, 0.15), 0.4);
+    motion_A.w_WB = std::pow(10.0, random.uniform(-4.0, 1.0)) * random.unitVector();
+    motion_B.w_WB = std::pow(10.0, random.uniform(-4.0, 1.0)) * random.unitVector();
+    motion_B.v_WB = std::pow(10.0, random.uniform(-5.0, 0.0)) * random.unitVector();
+    motion_B.a_WB = 10.0 * random.unitVector();
+    FeaturePair fresh;
+    const ClosestFeatures start = closestFeatures(A, motion_A.at(0.0), A, motion_B.at(0.0), fresh);
+    const double gap = std::pow(10.0, random.uniform(-6.0, -3.0));
+    motion_B.p_WB -= (start.distance - gap) * start.nhat_AB_W;
+  }
+};
+
+// Also while a vertex changes: tilts, turns and gaps of all sizes that a step can have.
+TEST(TimeOfImpact, WhatIsClearStaysApart) {
+  RandomBodies random(77);
+  int clear = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const FacingBoxes boxes(random);
+    FeaturePair pair;
+    const ClosestFeatures start =
+        closestFeatures(boxes.A, boxes.motion_A.at(0.0), boxes.A, boxes.motion_B.at(0.0), pair);
+    const ImpactSearch search = {1e-3, 0.5 * start.distance};
+    if (!isClear(boxes.A, boxes.motion_A, boxes.A, boxes.motion_B, start, search)) continue;
+    ++clear;
+    for (int k = 0; k <= 20; ++k) {
+      const double t = search.duration * k / 20;
+      const ClosestFeatures now =
+          closestFeatures(boxes.A, boxes.motion_A.at(t), boxes.A, boxes.motion_B.at(t), pair);
+      ASSERT_EQ(now.status, Proximity::kSeparated) << "seed 77, sample " << i;
+      ASSERT_GT(now.distance, 0.49 * search.tolerance) << "seed 77, sample " << i;
+    }
+  }
+  EXPECT_GT(clear, 5000);
+  EXPECT_LT(clear, 19000);
+}
+
+// Upright edges of the planar model are level with the walls, so that two vertices are the lowest.
+TEST(TimeOfImpact, AnUprightEdgeAlongAWallTakesFewQueries) {
+  const ConvexPolyhedron drum = cylinderPolyhedron(0.2, 0.3, 24);
+  const ConvexPolyhedron wall = boxPolyhedron(Vector3(0.3, 4.0, 0.3));
+  for (const double turn : {0.0, 0.05, 0.13}) {
+    StepMotion motion = moving(Vector3(1.0, 0.1, 0.0), Vector3(0.0, 0.6, 0.0), Vector3(0, 0, 0.3));
+    motion.q_WB = quaternionFromAxisAngle(Vector3::UnitZ(), turn);
+    FeaturePair fresh;
+    const ClosestFeatures start = closestFeatures(wall, Pose(), drum, motion.at(0.0), fresh);
+    motion.p_WB.x() -= start.distance - 1e-6;
+    const TimeOfImpact impact = timeOfImpact(wall, StepMotion(), drum, motion, {0.01, 5e-7});
+    EXPECT_LT(impact.queries, 30) << turn;
+  }
+}
+
 // Random bodies of 32 vertices on a collision course: both methods agree, the bodies are apart by
 // no more than the tolerance at the time returned, and at no earlier of 200 times they overlap.
 TEST(TimeOfImpact, IsNeverLateAndBothMethodsAgree) {

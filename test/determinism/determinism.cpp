@@ -2,8 +2,9 @@
 /// to their end, and says which differ from what was recorded; exit status 0 if none does.
 /// --record writes the hashes anew.
 ///
-/// Beside the verdict it prints a hash of what the C library's exp, sin, cos and pow return. No
-/// state depends on it: where it differs between two machines, the state hashes were put to a test.
+/// Beside the verdict it prints a hash of the states without and with contact, and one of what the
+/// C library's exp, sin, cos and pow return. No state depends on it: where it differs between two
+/// machines, the state hashes were put to a test.
 
 #include <algorithm>
 #include <cmath>
@@ -38,18 +39,21 @@ std::uint64_t hashOfLibm(int arguments) {
 /// @returns whether every run is as recorded.
 bool check(const std::string& folder, Tick last_tick) {
   bool all_equal = true;
-  StateHash of_all;
+  StateHash of_free;
+  StateHash of_contact;
   const auto runs = readRecordedRuns(folder);
   for (const RecordedRun& run : runs) {
     const auto flown = fly(folder, run, last_tick);
-    for (const std::uint64_t hash : flown) of_all.add(hash);
+    StateHash& of_kind = hasContact(folder, run) ? of_contact : of_free;
+    for (const std::uint64_t hash : flown) of_kind.add(hash);
     const std::string difference = firstDifference(run, flown);
     if (difference.empty()) continue;
     all_equal = false;
     std::cerr << "DIFFERENT " << difference << '\n';
   }
-  std::cout << fmt::format("{} {:016x} libm {:016x}\n", all_equal ? "identical" : "DIFFERENT",
-                           of_all.value(), hashOfLibm(100000));
+  std::cout << fmt::format("{} {:016x} contact {:016x} libm {:016x}\n",
+                           all_equal ? "identical" : "DIFFERENT", of_free.value(),
+                           of_contact.value(), hashOfLibm(100000));
   return all_equal;
 }
 

@@ -117,6 +117,10 @@ std::vector<std::uint64_t> fly(const std::string& folder, const RecordedRun& run
   return hashes;
 }
 
+bool hasContact(const std::string& folder, const RecordedRun& run) {
+  return scenarioOf(folder, run).world.has_value();
+}
+
 std::string firstDifference(const RecordedRun& run, const std::vector<std::uint64_t>& flown) {
   for (std::size_t i = 0; i < flown.size(); ++i) {
     if (flown[i] == run.hashes[i]) continue;

@@ -37,6 +37,9 @@ std::string textOf(const std::vector<RecordedRun>& runs);
 /// @returns the hashes at the checkpoints up to there.
 std::vector<std::uint64_t> fly(const std::string& folder, const RecordedRun& run, Tick last_tick);
 
+/// Whether the bodies of the run can meet: its scenario has a world.
+bool hasContact(const std::string& folder, const RecordedRun& run);
+
 /// In words, the first checkpoint at which the hashes differ; empty if none does.
 std::string firstDifference(const RecordedRun& run, const std::vector<std::uint64_t>& flown);
 
