@@ -29,6 +29,7 @@ endif()
 if(HOVERCRAFT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  add_compile_definitions(HOVERCRAFT_SANITIZE)
 endif()
 
 #catkin_lint: ignore_once external_directory

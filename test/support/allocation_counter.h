@@ -4,12 +4,27 @@
 #include <cstdlib>
 #include <new>
 
-/// Counts what an executable takes from the heap: operator new in every form ends here. To be
-/// included by one of its sources only, as it replaces the operators.
+#ifdef HOVERCRAFT_SANITIZE
+#include <sanitizer/allocator_interface.h>
+#endif
+
+/// Counts what an executable takes from the heap. To be included by one of its sources only, as it
+/// replaces operator new and delete in every form; under the address sanitizer, which has them
+/// replaced already, a hook counts instead.
 
 namespace hovercraft::testing {
 
 inline long allocations = 0;
+
+#ifdef HOVERCRAFT_SANITIZE
+
+inline const int allocation_hook = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void* /*memory*/, std::size_t /*size*/) { ++allocations; },
+    [](const volatile void* /*memory*/) {});
+
+}  // namespace hovercraft::testing
+
+#else
 
 inline void* countedOrNull(std::size_t size) {
   ++allocations;
@@ -81,3 +96,5 @@ void operator delete[](void* memory, std::size_t /*size*/,
                        std::align_val_t /*alignment*/) noexcept {
   std::free(memory);
 }
+
+#endif
