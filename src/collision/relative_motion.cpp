@@ -20,15 +20,15 @@ double earliestZero(double gap, double speed, double curvature) {
 RelativeMotion::RelativeMotion(const ConvexPolyhedron& A, const StepMotion& motion_A,
                                const ConvexPolyhedron& B, const StepMotion& motion_B,
                                double duration)
-    : A_{A, motion_A, norm(motion_A.w_WB)},
-      B_{B, motion_B, norm(motion_B.w_WB)},
+    : side_A_{A, motion_A, norm(motion_A.w_WB)},
+      side_B_{B, motion_B, norm(motion_B.w_WB)},
       motion_A_(motion_A),
       motion_B_(motion_B),
       radius_A_(A.data().radius),
       radius_B_(B.data().radius),
       acceleration_(norm(motion_B.a_WB - motion_A.a_WB)),
-      spin_A_(A_.spin),
-      spin_B_(B_.spin),
+      spin_A_(side_A_.spin),
+      spin_B_(side_B_.spin),
       spin_(norm(motion_B.w_WB - motion_A.w_WB)),
       speed_(norm(motion_B.v_WB - motion_A.v_WB) + acceleration_ * duration),
       reach_(norm(motion_B.p_WB - motion_A.p_WB) + speed_ * duration),
@@ -148,8 +148,8 @@ double RelativeMotion::clearTimeOverFace(const Side& face_side, int face, const 
 /// For a vertex or an edge over an edge: over the face beside it that looks at the other body most.
 double RelativeMotion::clearTimeBesideEdge(const ClosestFeatures& now, bool edge_of_A,
                                            const Instant& instant) const {
-  const Side& side = edge_of_A ? A_ : B_;
-  const Side& other = edge_of_A ? B_ : A_;
+  const Side& side = edge_of_A ? side_A_ : side_B_;
+  const Side& other = edge_of_A ? side_B_ : side_A_;
   const Feature edge = edge_of_A ? now.feature_a : now.feature_b;
   const Feature feature = edge_of_A ? now.feature_b : now.feature_a;
   const Vector3 towards = transposeTimes(side.motion.at(instant.time).R_AB,
@@ -169,10 +169,10 @@ double RelativeMotion::clearTimeOverFaces(const ClosestFeatures& now,
   const FeatureKind a = now.feature_a.kind;
   const FeatureKind b = now.feature_b.kind;
   if (a == FeatureKind::kFace && b == FeatureKind::kVertex) {
-    return clearTimeOverFace(A_, now.feature_a.index, B_, now.feature_b.index, instant);
+    return clearTimeOverFace(side_A_, now.feature_a.index, side_B_, now.feature_b.index, instant);
   }
   if (b == FeatureKind::kFace && a == FeatureKind::kVertex) {
-    return clearTimeOverFace(B_, now.feature_b.index, A_, now.feature_a.index, instant);
+    return clearTimeOverFace(side_B_, now.feature_b.index, side_A_, now.feature_a.index, instant);
   }
   double clear = 0.0;
   if (a == FeatureKind::kEdge && b != FeatureKind::kFace) {

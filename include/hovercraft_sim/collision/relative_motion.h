@@ -59,8 +59,8 @@ class RelativeMotion {
            spin_axes * spin_axes * (reach_ + radius);
   }
 
-  Side A_;
-  Side B_;
+  Side side_A_;
+  Side side_B_;
   const StepMotion& motion_A_;
   const StepMotion& motion_B_;
   double radius_A_;
