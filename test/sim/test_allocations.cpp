@@ -59,7 +59,10 @@ TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {
 }
 
 TEST(Allocations, NoneInAStepWithContactsOnceWarmedUp) {
-  Simulation simulation(loadScenario("config/tumble.yaml"));
+  Scenario scenario = loadScenario("config/tumble.yaml");
+  for (auto& obstacle : scenario.world->obstacles)
+    obstacle.name += " with a name that takes memory";
+  Simulation simulation(scenario);
   int contacts = 0;
   simulation.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
   const auto fly = [&simulation] {

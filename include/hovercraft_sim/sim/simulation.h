@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hovercraft_sim/body/body_state.h"
@@ -49,8 +50,8 @@ struct ContactEvent {
   std::int64_t time_ns = 0;  // of the impact, to the nearest ns
   double time = 0.0;         // s
   Tick tick = 0;             // at the end of the step
-  std::string a;             // names
-  std::string b;
+  std::string_view a;        // names, as long as the simulation lives
+  std::string_view b;
   Vector3 p_WC;         // m
   Vector3 nhat_AB_W;    // unit
   Vector3 impulse_B_W;  // N s, on b
