@@ -85,7 +85,8 @@ void stepCost() {
 /// 100 boxes fall into a pen.
 void heap(double seconds) {
   std::string world =
-      "world:\n  tolerance: 2e-5\n  materials: {default: {restitution: 0, friction: 0.5}}\n  obstacles:\n"
+      "world:\n  tolerance: 2e-5\n"
+      "  materials: {default: {restitution: 0, friction: 0.5}}\n  obstacles:\n"
       "    floor: {box: {size: [6, 6, 1]}, position: [0, 0, -0.5]}\n";
   const char* const places[] = {"[1.5, 0, 4]", "[-1.5, 0, 4]", "[0, 1.5, 4]", "[0, -1.5, 4]"};
   for (int i = 0; i < 4; ++i) {
