@@ -12,7 +12,7 @@ constexpr const char* kFolder = "test/determinism";
 constexpr Tick kLastContactTick = kCheckpoints[2];
 
 // scripts/determinism does the same with other compilers, levels, libraries and processors, and
-// flies the runs with contact to their end too, which takes minutes under the sanitizers.
+// flies the runs with contact to their end too, which takes minutes without optimisation.
 TEST(Determinism, EveryBuildGivesTheRecordedBits) {
   for (const RecordedRun& run : readRecordedRuns(kFolder)) {
     const Tick last = hasContact(kFolder, run) ? kLastContactTick : kLastTick;
