@@ -46,6 +46,9 @@ BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenar
   }
   try {
     bag_->open(file_.path(), rosbag::bagmode::Write);
+    // Less is written, and less often: rosbag seeks before each message, which empties the buffer
+    // of what is not compressed.
+    bag_->setCompression(rosbag::compression::LZ4);
   } catch (const rosbag::BagException& error) {
     throw writeError(file_.path(), error);
   }

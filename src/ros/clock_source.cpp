@@ -23,13 +23,16 @@ ClockSource::ClockSource(ros::NodeHandle handle, double rate)
 
 void ClockSource::publishIfDue(const ros::Time& stamp, std::int64_t now_ns, bool is_idle) {
   if (stamp.isZero() || now_ns - last_wall_ns_ < kLeastWallPeriodNs) return;
-  const std::int64_t elapsed_ns = (stamp - last_stamp_).toNSec();
-  if (elapsed_ns == 0 || (!is_idle && elapsed_ns < period_ns_)) return;
+  if (stamp == last_stamp_ || (!is_idle && untilDueNs(stamp) > 0)) return;
   rosgraph_msgs::Clock clock;
   clock.clock = stamp;
   publisher_.publish(clock);
   last_stamp_ = stamp;
   last_wall_ns_ = now_ns;
+}
+
+std::int64_t ClockSource::untilDueNs(const ros::Time& stamp) const {
+  return period_ns_ - (stamp - last_stamp_).toNSec();
 }
 
 }  // namespace hovercraft_ros

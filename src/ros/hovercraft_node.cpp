@@ -16,10 +16,15 @@ namespace {
 
 constexpr std::int64_t kIdleWaitNs = 4000000;   // how soon an idle node looks at its clock again
 constexpr std::int64_t kStepSliceNs = 2000000;  // of stepping between two looks at the callbacks
-constexpr std::uint32_t kContactQueue = 10000;  // every contact belongs in a recording
+constexpr std::int64_t kLongestSleepNs = 10000000;  // however long nothing of a step can be seen
+constexpr std::uint32_t kContactQueue = 10000;      // every contact belongs in a recording
 constexpr std::uint32_t kBodyQueue = 10;
 constexpr std::uint32_t kEventQueue = 1000;  // every event belongs in a recording
 constexpr std::uint32_t kTelemetryQueue = 10;
+
+hovercraft::Tick nextMultiple(hovercraft::Tick tick, hovercraft::Tick period) {
+  return (tick + period - 1) / period * period;
+}
 
 /// ROS time of tick 0: 0 where this node makes the time, else the wall time of its start.
 std::int64_t epochOf(const NodeConfig& config) {
@@ -39,11 +44,9 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
       diagnostics_(handle, private_handle) {
   ros::NodeHandle own(private_handle);
   for (std::size_t i = 0; i < config_.scenario.vehicles.size(); ++i) {
-    const auto take = [this, i](const hovercraft::Command& command,
-                                const std::optional<ros::Time>& stamp) -> const char* {
-      const char* refusal = config_.lockstep ? lockstep_.offer(i, stamp) : nullptr;
-      if (refusal == nullptr) run_.simulation().push(command);
-      return refusal;
+    const auto take = [this](const hovercraft::Command& command,
+                             const std::optional<ros::Time>& stamp) {
+      return this->take(command, stamp);
     };
     vehicles_.push_back(std::make_unique<VehicleInterface>(handle, run_, i, config_.world_frame,
                                                            take, config_.lockstep));
@@ -94,6 +97,7 @@ void HovercraftNode::publishConstants() {
 }
 
 void HovercraftNode::setRealTimeFactor(double real_time_factor) {
+  catchUp();
   config_.real_time_factor = real_time_factor;
   pacer_.reset();
   if (real_time_factor > 0.0) pacer_.emplace(config_.scenario.step_ns, real_time_factor);
@@ -120,14 +124,45 @@ void HovercraftNode::run() {
   }
 }
 
+const char* HovercraftNode::take(hovercraft::Command command,
+                                 const std::optional<ros::Time>& stamp) {
+  catchUp();
+  const char* refusal = config_.lockstep ? lockstep_.offer(command.vehicle, stamp) : nullptr;
+  if (refusal != nullptr) return refusal;
+  command.tick = run_.simulation().tick();
+  run_.simulation().push(command);
+  return nullptr;
+}
+
+/// The next tick that something is published at. Nobody can tell when the steps before it are made.
+hovercraft::Tick HovercraftNode::nextVisibleTick() const {
+  const hovercraft::Simulation& simulation = run_.simulation();
+  const hovercraft::Tick next = simulation.tick() + 1;
+  // A contact may come in any step, and a command is published by the step that it acts in.
+  if (simulation.world() != nullptr || simulation.hasWaitingCommands()) return next;
+  hovercraft::Tick visible = nextMultiple(next, config_.publish_every);
+  if (config_.lockstep) visible = std::min(visible, nextMultiple(next, config_.control_period));
+  if (clock_) {
+    const hovercraft::Tick wait = clock_->untilDueNs(run_.stamp()) / config_.scenario.step_ns;
+    visible = std::min(visible, std::max(next, simulation.tick() + wait));
+  }
+  return visible;
+}
+
 std::int64_t HovercraftNode::waitNs(std::int64_t now_ns) const {
   if (isIdle()) return kIdleWaitNs;
   if (!pacer_) return 0;
-  return std::max<std::int64_t>(pacer_->deadline(run_.simulation().tick() + 1) - now_ns, 0);
+  const std::int64_t wait = pacer_->deadline(nextVisibleTick()) - now_ns;
+  return std::clamp<std::int64_t>(wait, 0, kLongestSleepNs);
 }
 
 bool HovercraftNode::isStepDue(std::int64_t now_ns) const {
   return !isIdle() && (!pacer_ || pacer_->deadline(run_.simulation().tick() + 1) <= now_ns);
+}
+
+void HovercraftNode::catchUp() {
+  const std::int64_t now = steadyNow();
+  while (pacer_ && isStepDue(now)) advance();
 }
 
 void HovercraftNode::advance() {
@@ -146,10 +181,13 @@ void HovercraftNode::advance() {
   }
   const std::int64_t slice_end = now + kStepSliceNs;
   while (isStepDue(now) && now < slice_end) {
-    const std::int64_t lateness = pacer_ ? now - pacer_->deadline(run_.simulation().tick() + 1) : 0;
+    const hovercraft::Tick next = run_.simulation().tick() + 1;
+    if (pacer_ && next == nextVisibleTick()) {
+      pace_.addLateness(now - pacer_->deadline(next), config_.scenario.step_ns);
+    }
     stepOnce();
     const std::int64_t after = steadyNow();
-    pace_.addStep(lateness, after - now, lateness > config_.scenario.step_ns);
+    pace_.addStep(after - now);
     now = after;
   }
   if (clock_) clock_->publishIfDue(run_.stamp(), now, isIdle());
@@ -206,6 +244,7 @@ void HovercraftNode::noticeSilence(std::int64_t now_ns) {
 }
 
 void HovercraftNode::report() {
+  catchUp();
   const std::int64_t now = steadyNow();
   pace_.fill(telemetry_message_, now, config_.scenario.step_ns);
   telemetry_message_.header.stamp = run_.stamp();

@@ -23,10 +23,11 @@ constexpr std::uint32_t kMostSteps = 3600000;
 
 template <class Service>
 ros::ServiceServer serve(
-    ros::NodeHandle& handle, const std::string& name,
+    HovercraftNode& node, ros::NodeHandle& handle, const std::string& name,
     std::function<void(const typename Service::Request&, typename Service::Response&)> answer) {
   const boost::function<bool(typename Service::Request&, typename Service::Response&)> callback =
-      [answer](typename Service::Request& request, typename Service::Response& response) {
+      [&node, answer](typename Service::Request& request, typename Service::Response& response) {
+        node.catchUp();
         try {
           answer(request, response);
           response.success = 1;
@@ -64,28 +65,29 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
     : node_(node) {
   ros::NodeHandle own(private_handle);
   servers_.push_back(serve<std_srvs::Trigger>(
-      own, "pause", [this](const auto& /*request*/, auto& /*response*/) { node_.pause(); }));
+      node_, own, "pause", [this](const auto& /*request*/, auto& /*response*/) { node_.pause(); }));
   servers_.push_back(serve<std_srvs::Trigger>(
-      own, "resume", [this](const auto& /*request*/, auto& /*response*/) { node_.resume(); }));
+      node_, own, "resume",
+      [this](const auto& /*request*/, auto& /*response*/) { node_.resume(); }));
   servers_.push_back(
-      serve<hovercraft_sim::Step>(own, "step", [this](const auto& request, auto& response) {
+      serve<hovercraft_sim::Step>(node_, own, "step", [this](const auto& request, auto& response) {
         step(node_, request);
         tellTickAndHash(node_.liveRun(), response);
       }));
-  servers_.push_back(
-      serve<hovercraft_sim::Reset>(own, "reset", [this](const auto& request, auto& response) {
+  servers_.push_back(serve<hovercraft_sim::Reset>(
+      node_, own, "reset", [this](const auto& request, auto& response) {
         const bool with_seed = request.with_seed != 0;
         node_.apply(resetEvent(with_seed ? request.seed : node_.config().scenario.seed));
         response.episode = node_.liveRun().episode();
         response.hash = node_.liveRun().simulation().hash();
       }));
   servers_.push_back(serve<hovercraft_sim::SetState>(
-      own, "set_state", [this](const auto& request, auto& response) {
+      node_, own, "set_state", [this](const auto& request, auto& response) {
         node_.apply(setStateEvent(node_.config().scenario, request));
         response.tick = static_cast<std::uint64_t>(node_.liveRun().simulation().tick());
       }));
   servers_.push_back(serve<hovercraft_sim::ApplyWrench>(
-      own, "apply_wrench", [this](const auto& request, auto& response) {
+      node_, own, "apply_wrench", [this](const auto& request, auto& response) {
         const hovercraft::Tick tick = node_.liveRun().simulation().tick();
         const auto event =
             applyWrenchEvent(node_.config().scenario, request, node_.config().world_frame, tick);
@@ -93,13 +95,13 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
         response.tick = static_cast<std::uint64_t>(tick);
         response.end_tick = event.end_tick;
       }));
-  servers_.push_back(
-      serve<hovercraft_sim::Snapshot>(own, "save", [this](const auto& request, auto& response) {
+  servers_.push_back(serve<hovercraft_sim::Snapshot>(
+      node_, own, "save", [this](const auto& request, auto& response) {
         hovercraft::saveSnapshot(node_.liveRun().simulation(), request.file);
         tellTickAndHash(node_.liveRun(), response);
       }));
-  servers_.push_back(
-      serve<hovercraft_sim::Snapshot>(own, "load", [this](const auto& request, auto& response) {
+  servers_.push_back(serve<hovercraft_sim::Snapshot>(
+      node_, own, "load", [this](const auto& request, auto& response) {
         node_.apply(loadEvent(hovercraft::readSnapshotText(request.file)));
         tellTickAndHash(node_.liveRun(), response);
       }));

@@ -11,10 +11,9 @@ constexpr double kMicroseconds = 1e6;  // in a second
 
 }  // namespace
 
-void PaceReport::addStep(std::int64_t lateness_ns, std::int64_t duration_ns, bool is_late) {
+void PaceReport::addLateness(std::int64_t lateness_ns, std::int64_t bound_ns) {
   lateness_.add(lateness_ns);
-  step_times_.add(duration_ns);
-  if (is_late) ++late_steps_;
+  if (lateness_ns > bound_ns) ++late_steps_;
 }
 
 void PaceReport::restart(std::int64_t now_ns) {

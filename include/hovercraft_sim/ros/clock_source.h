@@ -19,6 +19,8 @@ class ClockSource {
   /// @param is_idle the simulation waits: whoever sleeps on simulated time must see where it
   /// stands.
   void publishIfDue(const ros::Time& stamp, std::int64_t now_ns, bool is_idle);
+  /// Simulated time from `stamp` until the next message, ns; 0 or less: it is due.
+  std::int64_t untilDueNs(const ros::Time& stamp) const;
 
  private:
   ros::Publisher publisher_;

@@ -28,7 +28,8 @@ namespace hovercraft_ros {
 
 /// The simulation behind ROS topics. One thread, the caller of run(), handles callbacks and steps
 /// the world; between steps it waits on the callback queue, so that a message or a service is
-/// handled at once, also while the simulation is paused.
+/// handled at once, also while the simulation is paused. It wakes for the ticks that something is
+/// published at, and makes the steps before them together.
 class HovercraftNode {
  public:
   /// @param handle of the namespace that the craft's namespaces lie in. @param private_handle the
@@ -42,6 +43,10 @@ class HovercraftNode {
   void run();
 
   // Control, from callbacks of run()'s thread.
+  /// Makes the steps that are due by now. The node sleeps through steps that nobody can see; who
+  /// looks at them or changes something calls this first, and finds what he would have found if
+  /// each had been made in its time.
+  void catchUp();
   void pause() { paused_ = true; }
   void resume();
   bool isPaused() const { return paused_; }
@@ -59,6 +64,8 @@ class HovercraftNode {
   void publishConstants();
   void restartPace();
   bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
+  const char* take(hovercraft::Command command, const std::optional<ros::Time>& stamp);
+  hovercraft::Tick nextVisibleTick() const;
   std::int64_t waitNs(std::int64_t now_ns) const;
   void advance();
   bool isStepDue(std::int64_t now_ns) const;

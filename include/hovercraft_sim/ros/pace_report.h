@@ -12,10 +12,11 @@ namespace hovercraft_ros {
 /// How a run kept its pace since the last report.
 class PaceReport {
  public:
-  /// @param lateness_ns from the deadline of the step to its start; @param duration_ns of the step
-  /// with what it published;
-  /// @param is_late it began more than a step size late.
-  void addStep(std::int64_t lateness_ns, std::int64_t duration_ns, bool is_late);
+  /// @param duration_ns of the step with what it published.
+  void addStep(std::int64_t duration_ns) { step_times_.add(duration_ns); }
+  /// Of a step that was waited for. @param lateness_ns from its deadline to its start.
+  /// @param bound_ns beyond which it counts as late.
+  void addLateness(std::int64_t lateness_ns, std::int64_t bound_ns);
   void addGivenUp(std::int64_t wall_ns) { given_up_ns_ += wall_ns; }
   std::int64_t givenUp() const { return given_up_ns_; }
 

@@ -23,8 +23,8 @@ namespace hovercraft_ros {
 /// The topics of one craft: thrusts in, messages out. A bad thrust is dropped whole and counted.
 class VehicleInterface {
  public:
-  /// Receives a command for the current tick, and the stamp of its header if it has one; returns
-  /// null, or why it was not taken. Called from the node's callback queue only.
+  /// Receives a command, whose tick the receiver sets, and the stamp of its header if it has one;
+  /// returns null, or why it was not taken. Called from the node's callback queue only.
   using CommandSink =
       std::function<const char*(const hovercraft::Command&, const std::optional<ros::Time>& stamp)>;
 

@@ -85,6 +85,7 @@ class Simulation {
 
   /// Queues a command; one whose tick has passed is a mistake of the caller.
   void push(const Command& command);
+  bool hasWaitingCommands() const { return !commands_.empty(); }
 
   /// Puts a craft somewhere else, with other velocities: from the current tick on. Its engines stay
   /// as they are.
