@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
-#include <stdexcept>
 
+#include "mujoco_model.h"
 #include "peer.h"
 
 namespace hovercraft::bench {
 namespace {
-
-constexpr int kModelErrorSize = 1000;  // characters, as in MuJoCo's samples
 
 /// A shape as Bullet's body has it; the inertia given prevails over that of the shape.
 std::string modelXml(const FreeCase& body, double h, const char* integrator) {
@@ -26,24 +24,10 @@ std::string modelXml(const FreeCase& body, double h, const char* integrator) {
       h, integrator, body.mass, body.moments.x(), body.moments.y(), body.moments.z());
 }
 
-mjModel* loadModel(const std::string& xml) {
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  const char* name = "body.xml";
-  mj_makeEmptyFileVFS(files.get(), name, static_cast<int>(xml.size()));
-  std::copy(xml.begin(), xml.end(),
-            static_cast<char*>(files->filedata[mj_findFileVFS(files.get(), name)]));
-  std::string error(kModelErrorSize, '\0');
-  mjModel* model = mj_loadXML(name, files.get(), &error[0], kModelErrorSize);
-  mj_deleteVFS(files.get());
-  if (model == nullptr) throw std::logic_error("MuJoCo refused the model: " + error);
-  return model;
-}
-
 class Mujoco : public Peer {
  public:
   Mujoco(const FreeCase& body, double h, const char* integrator)
-      : model_(loadModel(modelXml(body, h, integrator))), data_(mj_makeData(model_)) {
+      : model_(loadMujoco(modelXml(body, h, integrator))), data_(mj_makeData(model_)) {
     // The velocity of a free joint: of its origin in W, then angular in B.
     std::copy(body.w_WB_B.data(), body.w_WB_B.data() + 3, data_->qvel + 3);
     mj_forward(model_, data_);

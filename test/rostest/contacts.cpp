@@ -1,12 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <std_srvs/Trigger.h>
 #include <string>
+#include <tf2_msgs/TFMessage.h>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <geometry_msgs/PoseStamped.h>
 #include <hovercraft_sim/Contact.h>
+#include <hovercraft_sim/SetState.h>
 #include <hovercraft_sim/State.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <ros/node_handle.h>
@@ -29,11 +33,13 @@ constexpr const char* kContactsTopic = "/hovercraft_sim/contacts";
 /// run of the core: each of them exactly once.
 struct Flight {
   Flight(const std::string& vehicle, std::uint64_t ticks, const hovercraft::Vector3& thrusts,
-         const std::vector<std::string>& others = {}) {
+         const std::vector<std::string>& others = {},
+         const std::vector<std::string>& loose_bodies = {}) {
     std::vector<std::string> vehicles = {vehicle};
     vehicles.insert(vehicles.end(), others.begin(), others.end());
     std::vector<std::string> topics = outputTopics(vehicles);
     topics.emplace_back(kContactsTopic);
+    for (const std::string& body : loose_bodies) topics.push_back("/" + body + "/pose");
     RecordedFlight recorder(topics);
     fly(vehicle, ticks, thrusts);
     const Recording recording = recorder.finish();
@@ -41,6 +47,7 @@ struct Flight {
     states = recording.messages<hovercraft_sim::State>("/" + vehicle + "/state");
     expectEqualsCoreRun(recording);
     expectContactsOfCore(recording);
+    for (const std::string& body : loose_bodies) expectBodyOfCore(recording, body);
   }
 
   int count(std::uint8_t kind) const {
@@ -73,6 +80,48 @@ struct Flight {
     std_srvs::Trigger resume;
     EXPECT_TRUE(ros::service::call("/hovercraft_sim/resume", resume));
     waitUntil("the end of the flight", [&] { return tick >= ticks; });
+  }
+
+  /// The poses of a loose body, whose centre of mass is its origin, and its transforms.
+  static void expectBodyOfCore(const Recording& recording, const std::string& name) {
+    const hovercraft::Scenario scenario = recording.scenario();
+    const auto& bodies = scenario.world->bodies;
+    const auto found = std::find_if(bodies.begin(), bodies.end(), [&name](const auto& description) {
+      return description.name == name;
+    });
+    ASSERT_NE(found, bodies.end());
+    const auto body = static_cast<std::size_t>(found - bodies.begin());
+    std::map<ros::Time, geometry_msgs::Vector3> shifts;
+    for (const auto& message : recording.messages<tf2_msgs::TFMessage>("/tf")) {
+      for (const auto& transform : message.transforms) {
+        if (transform.child_frame_id == name + "/base_link") {
+          shifts[transform.header.stamp] = transform.transform.translation;
+        }
+      }
+    }
+    std::map<ros::Time, hovercraft::Tick> ticks;
+    for (const auto& state : recording.messages<hovercraft_sim::State>("/hovercraft/state")) {
+      ticks[state.header.stamp] = static_cast<hovercraft::Tick>(state.tick);
+    }
+    hovercraft::Simulation simulation(scenario);
+    for (const hovercraft::Command& command : recording.commands(scenario)) {
+      simulation.push(command);
+    }
+    std::size_t compared = 0;
+    for (const auto& pose : recording.messages<geometry_msgs::PoseStamped>("/" + name + "/pose")) {
+      const auto tick = ticks.find(pose.header.stamp);
+      const auto shift = shifts.find(pose.header.stamp);
+      if (tick == ticks.end() || shift == shifts.end()) continue;  // cut off at the end
+      while (simulation.tick() < tick->second) simulation.step();
+      const hovercraft::Motion motion = simulation.bodyMotion(body);
+      EXPECT_EQ(pose.pose.position.x, motion.p_WB.x());
+      EXPECT_EQ(pose.pose.orientation.z, motion.q_WB.v.z());
+      EXPECT_EQ(shift->second.x, motion.p_WB.x());
+      EXPECT_EQ(shift->second.y, motion.p_WB.y());
+      ++compared;
+    }
+    EXPECT_GT(compared, 100U);
+    EXPECT_GT(simulation.bodyMotion(body).p_WB.x(), found->initial_p_WB.x() + 0.1);
   }
 
   /// Up to the last recorded state: a contact after it may have been on its way.
@@ -117,6 +166,19 @@ TEST(Pen, TheCraftBouncesOffTheWallsAndStaysInside) {
   }
 }
 
+TEST(Pen, NoCraftIsPutIntoAWall) {
+  hovercraft_sim::SetState put;
+  put.request.vehicle = "hovercraft";
+  put.request.pose.position.x = 2.0;
+  put.request.pose.orientation.w = 1.0;
+  ASSERT_TRUE(ros::service::call("/hovercraft_sim/set_state", put));
+  EXPECT_FALSE(put.response.success);
+  EXPECT_NE(put.response.message.find("east"), std::string::npos) << put.response.message;
+  put.request.pose.position.x = 0.0;
+  ASSERT_TRUE(ros::service::call("/hovercraft_sim/set_state", put));
+  EXPECT_TRUE(put.response.success) << put.response.message;
+}
+
 TEST(Curling, OneHitKeepsTheMomentumOfBoth) {
   const Flight flight("stone", 2000, {0.0, 0.0, 0.0}, {"target"});
   ASSERT_EQ(flight.contacts.size(), 1U);
@@ -128,7 +190,7 @@ TEST(Curling, OneHitKeepsTheMomentumOfBoth) {
 }
 
 TEST(Crates, TheCraftSticksToTheFirstAndPushesItIntoTheSecond) {
-  const Flight flight("hovercraft", 2000, {3.0, 0.0, 0.0});
+  const Flight flight("hovercraft", 2000, {3.0, 0.0, 0.0}, {}, {"crate_a", "crate_b"});
   EXPECT_EQ(flight.count(Contact::BOUNCE), 0);
   EXPECT_EQ(flight.count(Contact::STICK), 2);
   EXPECT_EQ(flight.count(Contact::REST), 2);

@@ -1,0 +1,270 @@
+/// What contact costs, and how exact it is, beside other engines: bench_contact [NAME ...]; see
+/// bench/README.md. Times are processor time.
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <exception>
+#include <fmt/format.h>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "hovercraft_sim/collision/closest_features.h"
+#include "hovercraft_sim/geometry/polyhedron_shapes.h"
+#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/simulation.h"
+
+#include "box_scene.h"
+
+namespace hovercraft::bench {
+namespace {
+
+struct Entry {
+  std::string engine;
+  MakeBoxEngine make;
+  bool bounces;  // it knows restitution
+};
+
+std::vector<Entry> entries() {
+  return {
+      {"hovercraft_sim", makeOurBoxes, true},
+#ifdef HOVERCRAFT_BENCH_BULLET
+      {"Bullet " HOVERCRAFT_BENCH_BULLET " (double)", makeBulletBoxes, true},
+#endif
+#ifdef HOVERCRAFT_BENCH_ODE
+      {"ODE " HOVERCRAFT_BENCH_ODE " (double)", makeOdeBoxes, true},
+#endif
+#ifdef HOVERCRAFT_BENCH_MUJOCO
+      {"MuJoCo " HOVERCRAFT_BENCH_MUJOCO, makeMujocoBoxes, false},
+#endif
+  };
+}
+
+/// Processor time, s.
+double processorTime() {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+/// A craft in free flight: no drag, no thrust.
+std::string craft(const std::string& model, const std::string& world) {
+  const char* engine =
+      "{position: [0, 0, 0], direction: [1, 0, 0], min_thrust: 0, max_thrust: 1, timeout: 0}";
+  return fmt::format(
+      "step_size: 0.001\nintegrator: heun\nmodel: {}\nvehicles:\n  craft:\n    parts: [{{box: "
+      "{{size: [0.6, 0.4, 0.12]}}, mass: 5}}]\n    engines: {{rear: {}, left: {}, right: {}}}\n"
+      "    initial: {{velocity: [0.5, 0.3, 0], angular_velocity: [0, 0, 0.5]}}\n{}",
+      model, engine, engine, engine, world);
+}
+
+std::string walls() {
+  std::string world = "world:\n  materials: {default: {restitution: 1}}\n  obstacles:\n";
+  const char* const places[] = {"[2.1, 0, 0]", "[-2.1, 0, 0]", "[0, 2.1, 0]", "[0, -2.1, 0]"};
+  for (int i = 0; i < 4; ++i) {
+    world += fmt::format("    wall_{}: {{box: {{size: {}}}, position: {}}}\n", i,
+                         i < 2 ? "[0.2, 4.4, 1]" : "[4.4, 0.2, 1]", places[i]);
+  }
+  return world;
+}
+
+std::string farObstacles(int count) {
+  std::string world = "world:\n  obstacles:\n";
+  for (int i = 0; i < count; ++i) {
+    world += fmt::format("    far_{}: {{box: {{size: [1, 1, 1]}}, position: [{}, {}, 0]}}\n", i,
+                         10000 + 3 * (i % 40), 10000 + 3 * (i / 40));
+  }
+  return world;
+}
+
+/// The least of several runs: what the machine's other work cannot shorten. ns per step.
+double stepTime(const std::string& yaml) {
+  Simulation simulation(parseScenario(YAML::Load(yaml), {"bench", "", {}}));
+  double least = 1e9;
+  for (int run = 0; run < 60; ++run) {
+    const double begin = processorTime();
+    for (int i = 0; i < 20000; ++i) simulation.step();
+    least = std::min(least, (processorTime() - begin) / 20000 * 1e9);
+  }
+  return least;
+}
+
+void stepCost() {
+  for (const char* model : {"planar", "spatial"}) {
+    const double none = stepTime(craft(model, ""));
+    const double pen = stepTime(craft(model, walls()));
+    std::cout << fmt::format("step, {}: {:.0f} ns without a world, {:.0f} ns in a pen, {:.2f} x\n",
+                             model, none, pen, pen / none);
+  }
+  const double ten = stepTime(craft("planar", farObstacles(10)));
+  const double thousand = stepTime(craft("planar", farObstacles(1000)));
+  std::cout << fmt::format(
+      "step: {:.1f} ns with 10 far obstacles, {:.1f} ns with 1000, {:+.1f} %\n", ten, thousand,
+      100.0 * (thousand / ten - 1.0));
+}
+
+/// 100 boxes of 0.2 m and 1 kg over a pen of 2 m.
+BoxScene heapScene() {
+  BoxScene scene = {0.001, 2e-5, 0.0, 0.5, {0.0, 0.0, -9.81}, {}};
+  scene.boxes.push_back({{6.0, 6.0, 1.0}, 0.0, {0.0, 0.0, -0.5}});
+  for (const double side : {-1.5, 1.5}) {
+    scene.boxes.push_back({{1.0, 4.0, 8.0}, 0.0, {side, 0.0, 4.0}});
+    scene.boxes.push_back({{4.0, 1.0, 8.0}, 0.0, {0.0, side, 4.0}});
+  }
+  for (int k = 0; k < 100; ++k) {
+    const int layer = k / 9;
+    const Vector3 position(0.5 * (k % 3 - 1) + 0.01 * (k % 7),
+                           0.5 * (k / 3 % 3 - 1) + 0.01 * (k % 5), 0.3 + 0.45 * layer);
+    scene.boxes.push_back({{0.2, 0.2, 0.2}, 1.0, position, 0.37 * k * Vector3(1.0, 0.7, 1.3)});
+  }
+  return scene;
+}
+
+/// The deepest overlap of two boxes of a scene that are not both fixed, m; 0: there is none.
+class OverlapProbe {
+ public:
+  explicit OverlapProbe(const BoxScene& scene) : scene_(scene) {
+    for (const SceneBox& box : scene.boxes) hulls_.push_back(boxPolyhedron(box.size));
+  }
+  double deepest(const BoxEngine& engine) const {
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < hulls_.size(); ++i) {
+      const SceneBox& box = scene_.boxes[i];
+      if (box.isFixed()) {
+        poses.push_back({rotationMatrix(box.attitude()), box.position});
+      } else {
+        const BoxMotion motion = engine.motion(i);
+        poses.push_back({rotationMatrix(normalized(motion.q_WB)), motion.p_WB});
+      }
+    }
+    double depth = 0.0;
+    for (std::size_t a = 0; a < hulls_.size(); ++a) {
+      for (std::size_t b = a + 1; b < hulls_.size(); ++b) {
+        if (scene_.boxes[a].isFixed() && scene_.boxes[b].isFixed()) continue;
+        const double reach = hulls_[a].data().radius + hulls_[b].data().radius;
+        if (norm(poses[a].p_AB - poses[b].p_AB) > reach) continue;
+        FeaturePair features;
+        depth = std::max(
+            depth, -closestFeatures(hulls_[a], poses[a], hulls_[b], poses[b], features).distance);
+      }
+    }
+    return depth;
+  }
+
+ private:
+  const BoxScene& scene_;
+  std::vector<ConvexPolyhedron> hulls_;
+};
+
+/// 100 boxes fall into a pen, 5 s.
+void heap() {
+  constexpr int steps = 5000;
+  constexpr int look_every = 100;
+  const BoxScene scene = heapScene();
+  const OverlapProbe probe(scene);
+  std::cout
+      << "| heap, 5 s | processor time (s) | times real time | deepest overlap (m) | at the end "
+         "(m) | steps cut off |\n|---|---|---|---|---|---|\n";
+  for (const Entry& entry : entries()) {
+    const std::unique_ptr<BoxEngine> engine = entry.make(scene);
+    double stepping = 0.0;
+    double deepest = 0.0;
+    double last = 0.0;
+    for (int i = 1; i <= steps; ++i) {
+      const double begin = processorTime();
+      engine->step();
+      stepping += processorTime() - begin;
+      if (i % look_every != 0) continue;
+      last = probe.deepest(*engine);
+      deepest = std::max(deepest, last);
+    }
+    std::cout << fmt::format("| {} | {:.2f} | {:.2f} | {:.1e} | {:.1e} | {} |\n", entry.engine,
+                             stepping, steps * scene.step / stepping, deepest, last,
+                             engine->stalls())
+              << std::flush;
+  }
+}
+
+/// A tumbling box in a closed pen, elastic and without friction or gravity.
+BoxScene penScene(double step) {
+  BoxScene scene = {step, 1e-6, 1.0, 0.0, Vector3::Zero(), {}};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      SceneBox wall = {{3.0, 3.0, 3.0}, 0.0, Vector3::Zero()};
+      wall.size[axis] = 1.0;
+      wall.position[axis] = side * (0.5 + 0.5 * (1.2 + 0.2 * axis));
+      scene.boxes.push_back(wall);
+    }
+  }
+  SceneBox box = {{0.2, 0.3, 0.4}, 5.0, Vector3::Zero()};
+  box.velocity = {0.9, 0.7, 0.5};
+  box.angular_velocity = {1.0, 2.0, 3.0};
+  scene.boxes.push_back(box);
+  return scene;
+}
+
+double kineticEnergy(const SceneBox& box, const BoxMotion& motion) {
+  const Vector3 w_B = rotate(conjugate(normalized(motion.q_WB)), motion.w_WB);
+  return 0.5 * (box.mass * squaredNorm(motion.v_WB) + dot(w_B, box.moments().cwiseProduct(w_B)));
+}
+
+void energy(double step) {
+  constexpr int most_bounces = 10000;
+  constexpr double longest = 10000.0;  // s
+  const BoxScene scene = penScene(step);
+  const std::size_t last = scene.boxes.size() - 1;
+  std::cout << fmt::format(
+      "| elastic bounces, step {} s | bounces | in (s) | largest relative drift of energy | "
+      "deepest "
+      "overlap (m) |\n|---|---|---|---|---|\n",
+      step);
+  const OverlapProbe probe(scene);
+  for (const Entry& entry : entries()) {
+    if (!entry.bounces) continue;
+    const std::unique_ptr<BoxEngine> engine = entry.make(scene);
+    BoxMotion motion = engine->motion(last);
+    const double begin = kineticEnergy(scene.boxes[last], motion);
+    double drift = 0.0;
+    double deepest = 0.0;
+    int bounces = 0;
+    double time = 0.0;
+    for (long i = 1; bounces < most_bounces && time < longest; ++i) {
+      engine->step();
+      time = static_cast<double>(i) * step;
+      const Vector3 before = motion.v_WB;
+      motion = engine->motion(last);
+      drift = std::max(drift, std::abs(kineticEnergy(scene.boxes[last], motion) / begin - 1.0));
+      if (norm(motion.v_WB - before) <= 1e-9) continue;  // in flight nothing pushes it
+      ++bounces;
+      deepest = std::max(deepest, probe.deepest(*engine));
+    }
+    std::cout << fmt::format("| {} | {} | {:.0f} | {:.1e} | {:.1e} |\n", entry.engine, bounces,
+                             time, drift, deepest)
+              << std::flush;
+  }
+}
+
+}  // namespace
+}  // namespace hovercraft::bench
+
+int main(int argc, char** argv) {
+  using namespace hovercraft::bench;
+  std::vector<std::string> names(argv + 1, argv + argc);
+  if (names.empty()) names = {"step", "energy", "heap"};
+  try {
+    for (const std::string& name : names) {
+      if (name == "step") {
+        stepCost();
+      } else if (name == "energy") {
+        for (const double step : {0.0005, 0.001}) energy(step);
+      } else if (name == "heap") {
+        heap();
+      } else {
+        throw std::invalid_argument(name + ": must be step, energy or heap");
+      }
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "bench_contact: " << error.what() << '\n';
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/ros/vehicle_markers.h"
+
+#include "../support/scenario_text.h"
+
+namespace hovercraft_ros {
+namespace {
+
+using hovercraft::Vector3;
+using visualization_msgs::Marker;
+
+hovercraft::VehicleScenario craft() {
+  return hovercraft::testing::parsed(hovercraft::testing::validScenario()).vehicles.front();
+}
+
+double lengthOf(const Marker& arrow) {
+  const geometry_msgs::Point& from = arrow.points.at(0);
+  const geometry_msgs::Point& to = arrow.points.at(1);
+  return std::hypot(to.x - from.x, to.y - from.y, to.z - from.z);
+}
+
+/// Corners of the box around a marker's points, m.
+struct Bounds {
+  explicit Bounds(const Marker& marker) {
+    for (const geometry_msgs::Point& point : marker.points) {
+      low = low.cwiseMin(Vector3(point.x, point.y, point.z));
+      high = high.cwiseMax(Vector3(point.x, point.y, point.z));
+    }
+  }
+  Vector3 low = Vector3::Constant(1e9);
+  Vector3 high = Vector3::Constant(-1e9);
+};
+
+TEST(VehicleMarkers, ACraftGivenByNumbersIsABoxOfItsInertia) {
+  hovercraft::MassProperties box;
+  box.mass = 3.0;
+  const Vector3 edges(0.6, 0.4, 0.1);
+  box.I_BBo_B = Vector3(0.16 + 0.01, 0.36 + 0.01, 0.36 + 0.16).asDiagonal();
+  box.I_BBo_B *= box.mass / 12.0;
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(equivalentBox(box)[i], edges[i], 1e-12);
+}
+
+TEST(VehicleMarkers, EveryPartAndEveryEngineIsDrawnInBaseLink) {
+  const auto scenario = hovercraft::testing::parsed(hovercraft::testing::scenarioOfParts());
+  const std::vector<Marker> markers = craftMarkers(scenario.vehicles.front());
+  ASSERT_EQ(markers.size(), 4U + 3U);
+  EXPECT_EQ(markers[0].type, Marker::CUBE);
+  EXPECT_EQ(markers[0].scale.x, 0.6);
+  EXPECT_EQ(markers[1].type, Marker::CYLINDER);
+  EXPECT_EQ(markers[1].pose.position.x, -0.25);
+  EXPECT_EQ(markers[2].type, Marker::ARROW);  // a head without a shaft
+  EXPECT_NEAR(lengthOf(markers[2]), 0.3, 1e-15);
+  EXPECT_EQ(markers[3].type, Marker::SPHERE);
+  EXPECT_EQ(markers[3].scale.z, 0.066);
+  for (const Marker& marker : markers) {
+    EXPECT_EQ(marker.header.frame_id, "alpha/base_link");
+    EXPECT_EQ(marker.frame_locked, 1);
+  }
+}
+
+TEST(VehicleMarkers, AnEngineOfNoThrustIsNotBuiltIn) {
+  hovercraft::VehicleScenario without = craft();
+  const std::size_t before = craftMarkers(without).size();
+  without.engines[0].min_thrust = without.engines[0].max_thrust = 0.0;
+  EXPECT_EQ(craftMarkers(without).size(), before - 1);
+}
+
+TEST(VehicleMarkers, ArrowsGrowWithTheThrustAndTurnRedWhenSaturated) {
+  hovercraft_sim::EngineStatus status;
+  status.rear.applied = -2.25;  // half of the most
+  status.left.applied = 1.5;    // all of it
+  status.left.saturated = 1;
+  const std::vector<Marker> arrows = thrustMarkers(craft(), status);
+  ASSERT_EQ(arrows.size(), 3U);
+  EXPECT_NEAR(lengthOf(arrows[0]), 0.5 * lengthOf(arrows[1]), 1e-12);
+  EXPECT_LT(arrows[0].points[1].x, arrows[0].points[0].x);  // backwards
+  EXPECT_GT(arrows[1].color.r, arrows[1].color.g + 0.5F);
+  EXPECT_GT(arrows[0].color.g, 0.5F);
+  EXPECT_EQ(arrows[2].action, Marker::DELETE);
+  EXPECT_EQ(arrows[1].action, Marker::ADD);
+}
+
+TEST(VehicleMarkers, ObstaclesAndLooseBodiesAreDrawnWhereTheyAre) {
+  const std::string world = R"(world:
+  obstacles:
+    wall: {box: {size: [1, 2, 3]}, position: [4, 5, 6]}
+  bodies:
+    crate: {parts: [{box: {size: [0.2, 0.4, 0.6]}, mass: 1, position: [0.5, 0, 0]}], initial: {position: [9, 9, 9]}}
+)";
+  const auto scenario = hovercraft::testing::parsed(hovercraft::testing::scenarioOfParts() + world);
+  const std::vector<Marker> walls = obstacleMarkers(scenario, "map");
+  ASSERT_EQ(walls.size(), 1U);
+  EXPECT_EQ(walls[0].header.frame_id, "map");
+  EXPECT_EQ(walls[0].points.size(), 36U);  // 12 triangles
+  const Bounds wall(walls[0]);
+  const Marker crate = bodyMarker(scenario.world->bodies.front());
+  EXPECT_EQ(crate.header.frame_id, "crate/base_link");
+  EXPECT_EQ(crate.points.size(), 36U);
+  const Bounds hull(crate);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(wall.low[i], Vector3(3.5, 4.0, 4.5)[i], 1e-12);
+    EXPECT_NEAR(wall.high[i], Vector3(4.5, 6.0, 7.5)[i], 1e-12);
+    EXPECT_NEAR(hull.low[i], Vector3(0.4, -0.2, -0.3)[i], 1e-12);
+    EXPECT_NEAR(hull.high[i], Vector3(0.6, 0.2, 0.3)[i], 1e-12);
+  }
+}
+
+TEST(VehicleMarkers, APathNeedsTwoPoints) {
+  std::vector<geometry_msgs::Point> path(1);
+  EXPECT_EQ(pathMarker(craft(), "map", path).action, Marker::DELETE);
+  path.emplace_back();
+  EXPECT_EQ(pathMarker(craft(), "map", path).action, Marker::ADD);
+  EXPECT_EQ(pathMarker(craft(), "map", path).header.frame_id, "map");
+}
+
+}  // namespace
+}  // namespace hovercraft_ros

@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+"""What RViz is given: craft, thrusts, loose bodies and the path, in frames that tf knows."""
+
+import unittest
+
+import rospy
+import rostest
+import tf2_ros
+from visualization_msgs.msg import Marker, MarkerArray
+
+from ros_waiting import wait_until
+
+
+class MarkersTest(unittest.TestCase):
+    def test_craft_crates_and_path_are_drawn_in_known_frames(self):
+        shown = {}
+        rospy.Subscriber('/hovercraft_markers/markers', MarkerArray,
+                         lambda array: shown.update({(m.ns, m.id): m for m in array.markers}))
+        buffer = tf2_ros.Buffer()
+        listener = tf2_ros.TransformListener(buffer)
+        wait_until(lambda: ('crate_b/hull', 0) in shown and ('hovercraft/path', 0) in shown, 'the markers')
+        for name in ('hovercraft/hull', 'hovercraft/engines', 'hovercraft/thrust', 'crate_a/hull'):
+            self.assertIn((name, 0), shown)
+        for marker in list(shown.values()):
+            wait_until(lambda frame=marker.header.frame_id: buffer.can_transform('world', frame, rospy.Time(0)),
+                       'tf of ' + marker.header.frame_id)
+        # The craft starts at 0.8 m/s.
+        wait_until(lambda: len(shown['hovercraft/path', 0].points) > 5, 'the path')
+        path = shown['hovercraft/path', 0]
+        self.assertEqual(path.action, Marker.ADD)
+        self.assertLess(path.points[0].x, path.points[-1].x)
+        listener.unregister()
+
+
+if __name__ == '__main__':
+    rospy.init_node('markers_test')
+    rostest.rosrun('hovercraft_sim', 'markers', MarkersTest)
