@@ -3,10 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
 
 namespace hovercraft {
 namespace {
+
+constexpr int kFixed = -1;  // what a body that cannot move is touched in
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+bool isFixed(const ContactBody& body) {
+  return body.inverse_mass == Vector3::Zero() && body.inverse_inertia == Matrix3::Zero();
+}
 
 /// Bound on a component of the normal (-) below which its axis serves to build a tangent: just
 /// above 1/√3, so that one always does, and no common direction is near it.
@@ -33,14 +44,14 @@ std::int32_t ContactSolver::add(const ContactBody& body) {
   return static_cast<std::int32_t>(bodies_.size() - 1);
 }
 
-/// What an impulse on B, and against A, makes of the velocity of B against A there, m/s.
-Vector3 ContactSolver::velocityOf(const Point& point, const Vector3& impulse) const {
-  const ContactBody& A = bodies_[static_cast<std::size_t>(point.a)];
-  const ContactBody& B = bodies_[static_cast<std::size_t>(point.b)];
-  const Vector3 spin_a = times(A.inverse_inertia, cross(point.r_a, impulse));
-  const Vector3 spin_b = times(B.inverse_inertia, cross(point.r_b, impulse));
-  const Vector3 linear = (A.inverse_mass + B.inverse_mass).cwiseProduct(impulse);
-  return linear + (cross(spin_a, point.r_a) + cross(spin_b, point.r_b));
+/// What a unit impulse on B along a direction, and against A, makes of the velocity of B against A
+/// there, 1/kg.
+Vector3 ContactSolver::velocityAlong(const Point& point, int direction) const {
+  const Vector3 inverse_mass =
+      bodies_[at(point.a)].inverse_mass + bodies_[at(point.b)].inverse_mass;
+  const Vector3 linear = inverse_mass.cwiseProduct(point.directions[direction]);
+  return linear +
+         (cross(point.spin_a[direction], point.r_a) + cross(point.spin_b[direction], point.r_b));
 }
 
 /// What the impulses of a point do, from the velocities that a unit impulse along each direction
@@ -67,27 +78,31 @@ void ContactSolver::weigh(Point& point, const Vector3 (&velocities)[3]) {
 }
 
 std::size_t ContactSolver::add(const ContactDemand& asked) {
-  demand(asked.a >= 0 && asked.b >= 0 &&
-             static_cast<std::size_t>(std::max(asked.a, asked.b)) < bodies_.size(),
+  demand(asked.a >= 0 && asked.b >= 0 && at(std::max(asked.a, asked.b)) < bodies_.size(),
          "a point of contact must name two bodies");
+  const ContactBody& A = bodies_[at(asked.a)];
+  const ContactBody& B = bodies_[at(asked.b)];
   Point point;
   point.a = asked.a;
   point.b = asked.b;
-  point.r_a = asked.p_WC - bodies_[static_cast<std::size_t>(asked.a)].p_WB;
-  point.r_b = asked.p_WC - bodies_[static_cast<std::size_t>(asked.b)].p_WB;
+  point.r_a = asked.p_WC - A.p_WB;
+  point.r_b = asked.p_WC - B.p_WB;
   point.target = asked.target;
   point.friction = asked.friction;
   point.bilateral = asked.bilateral;
   point.directions[0] = asked.nhat_AB_W;
   point.directions[1] = tangentTo(asked.nhat_AB_W);
   point.directions[2] = cross(asked.nhat_AB_W, point.directions[1]);
-  weigh(point, {velocityOf(point, point.directions[0]), velocityOf(point, point.directions[1]),
-                velocityOf(point, point.directions[2])});
+  for (int i = 0; i < 3; ++i) {
+    point.spin_a[i] = times(A.inverse_inertia, cross(point.r_a, point.directions[i]));
+    point.spin_b[i] = times(B.inverse_inertia, cross(point.r_b, point.directions[i]));
+  }
+  weigh(point, {velocityAlong(point, 0), velocityAlong(point, 1), velocityAlong(point, 2)});
   for (int i = 0; i < 3; ++i) {
     point.lambda[i] = point.inverse_mass[i] > 0.0 ? dot(point.directions[i], asked.start) : 0.0;
   }
   point.lambda[0] = std::max(0.0, point.lambda[0]);
-  if (squaredNorm(point.lambda) > 0.0) apply(point, inWorld(point, point.lambda));
+  if (squaredNorm(point.lambda) > 0.0) apply(point, point.lambda);
   points_.push_back(point);
   return points_.size() - 1;
 }
@@ -119,6 +134,7 @@ inline double ContactSolver::relax(Point& point) {
   const Vector3 v = velocity(point);
   const double pressed =
       before.x() + point.normal_mass * (point.target - dot(point.directions[0], v));
+  if (!point.bilateral && !(pressed > 0.0) && squaredNorm(before) == 0.0) return 0.0;  // parts
   point.lambda.x() = point.bilateral ? pressed : std::max(0.0, pressed);
   if (point.friction > 0.0 || point.bilateral) {
     const double by = point.lambda.x() - before.x();
@@ -127,44 +143,74 @@ inline double ContactSolver::relax(Point& point) {
   }
   const Vector3 by = point.lambda - before;
   const double changed = by.cwiseAbs().cwiseProduct(point.inverse_mass).maxCoeff();
-  if (changed > 0.0) apply(point, inWorld(point, by));
+  if (changed > 0.0) apply(point, by);
   return changed;
 }
 
-/// Goes on by `share` of the last search direction, and makes the next one of both.
+/// A body that was touched wakes its points for the sweep that follows.
+void ContactSolver::touch(const Point& point) {
+  for (const std::int32_t body : {point.a, point.b}) {
+    int& touched = touched_[at(body)];
+    if (touched != kFixed) touched = sweep_;
+  }
+}
+
+/// Relaxes all points, or those whose bodies were touched since they were relaxed last.
+/// @param quiet m/s: a point that changes by no more touches nobody.
+ContactSolver::Change ContactSolver::sweep(bool all, double quiet) {
+  ++sweep_;
+  Change sum;
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    Point& point = points_[k];
+    if (!all && std::max(touched_[at(point.a)], touched_[at(point.b)]) < point.relaxed) continue;
+    before_[k] = point.lambda;
+    const double changed = relax(point);
+    point.relaxed = sweep_;
+    if (changed > quiet) touch(point);
+    const Vector3 by = point.lambda - before_[k];
+    sum.largest = std::max(sum.largest, changed);
+    sum.energy += dot(by, Vector3(by.cwiseProduct(point.inverse_mass)));
+  }
+  return sum;
+}
+
+/// Goes on by `share` of the last search direction, and makes the next one of both. Points that the
+/// sweep left out stay where they are.
 void ContactSolver::goOn(double share) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point& point = points_[k];
+    if (point.relaxed != sweep_) {
+      search_[k] = Vector3::Zero();
+      continue;
+    }
     const Vector3 ahead = share * search_[k];
     search_[k] = ahead + (point.lambda - before_[k]);
     if (!(squaredNorm(ahead) > 0.0)) continue;
     point.lambda += ahead;
-    apply(point, inWorld(point, ahead));
+    apply(point, ahead);
+    touch(point);
   }
 }
 
 int ContactSolver::solve(const Limits& limits) {
   search_.assign(points_.size(), Vector3::Zero());
   before_.resize(points_.size());
-  double last_length = 0.0;
-  int sweep = 0;
+  for (Point& point : points_) point.relaxed = 0;
+  touched_.clear();
+  for (const ContactBody& body : bodies_) touched_.push_back(isFixed(body) ? kFixed : 0);
+  sweep_ = 0;
+  bool all = true;
+  double last_energy = 0.0;
   while (true) {
-    double changed = 0.0;
-    double length = 0.0;  // J, of the change that the sweep makes
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-      Point& point = points_[k];
-      before_[k] = point.lambda;
-      changed = std::max(changed, relax(point));
-      const Vector3 by = point.lambda - before_[k];
-      length += dot(by, Vector3(by.cwiseProduct(point.inverse_mass)));
-    }
-    ++sweep;
-    if (sweep >= limits.sweeps) break;
-    if (changed <= limits.tolerance && sweep >= limits.least_sweeps) break;
-    goOn(last_length > 0.0 && length <= last_length ? length / last_length : 0.0);
-    last_length = length;
+    const Change change = sweep(all, kQuietShare * limits.tolerance);
+    if (sweep_ >= limits.sweeps) break;
+    const bool solved = change.largest <= limits.tolerance && sweep_ >= limits.least_sweeps;
+    if (solved && all) break;
+    all = solved || sweep_ < limits.least_sweeps;
+    goOn(last_energy > 0.0 && change.energy <= last_energy ? change.energy / last_energy : 0.0);
+    last_energy = change.energy;
   }
-  return sweep;
+  return sweep_;
 }
 
 }  // namespace hovercraft

@@ -114,12 +114,20 @@ bool ImpactSolver::isApproaching(const ContactSolver& solver,
   });
 }
 
+/// Whether nothing bounces and nothing sticks: points that part need not be left out then.
+bool ImpactSolver::isPlastic(const ContactSolver& solver, const std::vector<ImpactPoint>& points) {
+  return std::none_of(points.begin(), points.end(), [&solver](const ImpactPoint& point) {
+    const double speed = dot(point.nhat_AB_W, velocityAt(solver, point));
+    return point.material.stick || (speed < 0.0 && restitutionOf(point, speed) > 0.0);
+  });
+}
+
 void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& points) {
   for (int round = 0; round <= kMaxImpactRounds + 1; ++round) {
     if (!isApproaching(solver, points)) return;
-    const Round kind = round < kMaxImpactRounds    ? Round::kUsual
-                       : round == kMaxImpactRounds ? Round::kPlastic
-                                                   : Round::kPlasticWithoutFriction;
+    const Round kind = round > kMaxImpactRounds ? Round::kPlasticWithoutFriction
+                       : round == kMaxImpactRounds || isPlastic(solver, points) ? Round::kPlastic
+                                                                                : Round::kUsual;
     roundWithoutGain(solver, points, kind);
   }
 }

@@ -150,6 +150,44 @@ TEST(Impact, SimultaneousPointsNeitherApproachNorGainEnergy) {
 
 /// doc/contact.md, "A worked example": a square plate of 2 kg and 0.6 m, at 3 m/s straight down,
 /// not turning, meets the floor with its corner 0.3 m to the right of its centre; e = 0.5.
+TEST(Impact, APlasticCrowdGetsTheNearestVelocitiesThatApproachNowhere) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&] { return Vector3(uniform(random), uniform(random), uniform(random)); };
+  int parted = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    ContactSolver solver;
+    solver.add(fixedBody());
+    for (int i = 0; i < 6; ++i) {
+      const double mass = 1.5 + uniform(random);
+      const MassProperties box = boxMassProperties(mass, Vector3::Constant(1.2) + vector());
+      solver.add(bodyOf({mass, box.I_BBo_B}, vector(), {vector(), vector()}));
+    }
+    std::vector<ImpactPoint> points;
+    for (int k = 0; k < 12; ++k) {
+      const Vector3 normal = vector();
+      points.push_back(pointOf(normal / norm(normal), vector(), 0.0, 0.0));
+      points.back().a = k % 7;
+      points.back().b = (k + 1 + k / 7) % 7;
+    }
+    ImpactSolver impact;
+    impact.resolve(solver, points);
+    // Kuhn-Tucker's conditions of the projection.
+    for (const ImpactPoint& point : points) {
+      const ContactBody& A = solver.bodies()[static_cast<std::size_t>(point.a)];
+      const ContactBody& B = solver.bodies()[static_cast<std::size_t>(point.b)];
+      const double v_n = dot(point.nhat_AB_W, velocityOfPoint(B.twist, point.p_WC, B.p_WB) -
+                                                  velocityOfPoint(A.twist, point.p_WC, A.p_WB));
+      const double pushed = dot(point.nhat_AB_W, point.impulse);
+      EXPECT_GE(v_n, -1e-11);
+      EXPECT_GE(pushed, 0.0);
+      EXPECT_NEAR(pushed * v_n, 0.0, 1e-10);
+      parted += v_n > 1e-3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(parted, 200);  // not all points hold
+}
+
 TEST(Impact, WorkedExampleOfTheDocument) {
   Masses plate{2.0, Matrix3::Identity() * 0.12};  // m a²/6
   ContactSolver solver;

@@ -38,9 +38,10 @@ struct ContactDemand {
 ///
 /// Projected Gauss-Seidel sweeps in the order of the points, between which the search goes on as
 /// conjugate gradients do (Silcowitz, Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate
-/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. The last thing
-/// is always a sweep, whose impulses obey the bounds. No allocation once it has grown to its
-/// working size.
+/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. Sweeps leave
+/// out the points whose bodies hardly changed since; when nothing is left to do a sweep over all
+/// points decides whether it is solved. The last thing is always a sweep, whose impulses obey the
+/// bounds. No allocation once it has grown to its working size.
 class ContactSolver {
  public:
   struct Limits {
@@ -83,45 +84,62 @@ class ContactSolver {
     Vector3 r_a;  // m, from the centre of mass
     Vector3 r_b;
     Vector3 directions[3];  // unit, in W: normal and two tangents
-    Vector3 lambda;         // N s, along them, on B
-    Vector3 inverse_mass;   // 1/kg: what a unit impulse along each does along itself
-    double normal_to_s;     // 1/kg: ... along the normal does along the first tangent
-    double normal_to_t;     // ... along the second
-    double normal_mass;     // kg; 0 where neither body can move
-    double stop_ss;         // kg: the impulse along the tangents that stops a slip along them
+    Vector3 spin_a[3];      // rad/s per N s: what a unit impulse along each would turn A by
+    Vector3 spin_b[3];
+    Vector3 lambda;        // N s, along them, on B
+    Vector3 inverse_mass;  // 1/kg: what a unit impulse along each does along itself
+    double normal_to_s;    // 1/kg: ... along the normal does along the first tangent
+    double normal_to_t;    // ... along the second
+    double normal_mass;    // kg; 0 where neither body can move
+    double stop_ss;        // kg: the impulse along the tangents that stops a slip along them
     double stop_st;
     double stop_tt;
     double slip_mass;  // kg, the least along any tangent
     double target;     // m/s
     double friction;
     bool bilateral;
+    int relaxed;  // the last sweep that it was relaxed in
   };
 
+  /// What a sweep changed.
+  struct Change {
+    double largest = 0.0;  // m/s, of the points
+    double energy = 0.0;   // J
+  };
+
+  static Vector3 combined(const Vector3 (&vectors)[3], const Vector3& shares) {
+    return (shares.x() * vectors[0] + shares.y() * vectors[1]) + shares.z() * vectors[2];
+  }
   static Vector3 inWorld(const Point& point, const Vector3& along) {
-    return (along.x() * point.directions[0] + along.y() * point.directions[1]) +
-           along.z() * point.directions[2];
+    return combined(point.directions, along);
   }
   Vector3 velocity(const Point& point) const {
     const Twist& A = bodies_[static_cast<std::size_t>(point.a)].twist;
     const Twist& B = bodies_[static_cast<std::size_t>(point.b)].twist;
     return (B.v_WB - A.v_WB) + (cross(B.w_WB, point.r_b) - cross(A.w_WB, point.r_a));
   }
-  void apply(const Point& point, const Vector3& impulse) {
+  /// @param along N s, an impulse on B along the point's directions, and against A.
+  void apply(const Point& point, const Vector3& along) {
     ContactBody& A = bodies_[static_cast<std::size_t>(point.a)];
     ContactBody& B = bodies_[static_cast<std::size_t>(point.b)];
+    const Vector3 impulse = inWorld(point, along);
     A.twist.v_WB -= A.inverse_mass.cwiseProduct(impulse);
-    A.twist.w_WB -= times(A.inverse_inertia, cross(point.r_a, impulse));
+    A.twist.w_WB -= combined(point.spin_a, along);
     B.twist.v_WB += B.inverse_mass.cwiseProduct(impulse);
-    B.twist.w_WB += times(B.inverse_inertia, cross(point.r_b, impulse));
+    B.twist.w_WB += combined(point.spin_b, along);
   }
-  Vector3 velocityOf(const Point& point, const Vector3& impulse) const;
+  Vector3 velocityAlong(const Point& point, int direction) const;
   static void weigh(Point& point, const Vector3 (&velocities)[3]);
   static void relaxTangents(Point& point, double v_s, double v_t);
   double relax(Point& point);
+  void touch(const Point& point);
+  Change sweep(bool all, double quiet);
   void goOn(double share);
 
   std::vector<ContactBody> bodies_;
   std::vector<Point> points_;
+  int sweep_ = 0;                // of this solve, from 1
+  std::vector<int> touched_;     // the last sweep that changed a body
   std::vector<Vector3> before_;  // N s: the impulses before the last sweep
   std::vector<Vector3> search_;  // N s
 };

@@ -59,7 +59,11 @@ constexpr double kStillSpeed = 1e-9;
 
 /// Share (-) of the rest gap that what is left unsolved of a resting contact may take in a step:
 /// the recovery of the gap makes up for it.
-constexpr double kRestResidual = 0.01;
+constexpr double kRestResidual = 0.03;
+
+/// Change of a point (-, of the change at which a solve is done) up to which it wakes none of its
+/// neighbours.
+constexpr double kQuietShare = 0.3;
 
 /// Share (-) of the rest gap up to which the approach of a resting pair may eat into it in a step
 /// without being an impact: the force over the step stops it.
