@@ -104,7 +104,7 @@ void stepCost() {
 
 /// 100 boxes of 0.2 m and 1 kg over a pen of 2 m.
 BoxScene heapScene() {
-  BoxScene scene = {0.001, 2e-5, 0.0, 0.5, {0.0, 0.0, -9.81}, {}};
+  BoxScene scene = {0.001, 5e-5, 0.0, 0.5, {0.0, 0.0, -9.81}, {}};
   scene.boxes.push_back({{6.0, 6.0, 1.0}, 0.0, {0.0, 0.0, -0.5}});
   for (const double side : {-1.5, 1.5}) {
     scene.boxes.push_back({{1.0, 4.0, 8.0}, 0.0, {side, 0.0, 4.0}});
