@@ -31,9 +31,8 @@ struct ImpactPoint {
 /// restitution of such a round is halved until it does not. Points that stick leave a round with no
 /// relative velocity at all. Where nothing bounces and nothing sticks, one round over all points is
 /// the impact: the nearest velocities, as kinetic energy measures it, that approach nowhere. After
-/// kMaxImpactRounds one round without restitution over all points
-/// ends the approach, and if friction keeps it from that, one without friction: projections, which
-/// never gain.
+/// kMaxImpactRounds such a round ends the approach, and if friction keeps it from that, one without
+/// friction: projections, which never gain.
 class ImpactSolver {
  public:
   /// @param solver its bodies, whose twists are changed; its points are overwritten.

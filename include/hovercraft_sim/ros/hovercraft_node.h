@@ -43,9 +43,9 @@ class HovercraftNode {
   void run();
 
   // Control, from callbacks of run()'s thread.
-  /// Makes the steps that are due by now. The node sleeps through steps that nobody can see; who
-  /// looks at them or changes something calls this first, and finds what he would have found if
-  /// each had been made in its time.
+  /// Makes the steps that are due by now. The node sleeps through steps that nobody can see; a
+  /// callback that looks or changes something comes after this, and finds what would be there had
+  /// each been made in its time.
   void catchUp();
   void pause() { paused_ = true; }
   void resume();
