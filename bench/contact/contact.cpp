@@ -226,6 +226,7 @@ void energy(double step) {
     double drift = 0.0;
     double deepest = 0.0;
     int bounces = 0;
+    bool meets = false;
     double time = 0.0;
     for (long i = 1; bounces < most_bounces && time < longest; ++i) {
       engine->step();
@@ -233,8 +234,10 @@ void energy(double step) {
       const Vector3 before = motion.v_WB;
       motion = engine->motion(last);
       drift = std::max(drift, std::abs(kineticEnergy(scene.boxes[last], motion) / begin - 1.0));
-      if (norm(motion.v_WB - before) <= 1e-9) continue;  // in flight nothing pushes it
-      ++bounces;
+      const bool met = meets;
+      meets = norm(motion.v_WB - before) > 1e-9;  // in flight nothing pushes it
+      if (!meets) continue;
+      if (!met) ++bounces;
       deepest = std::max(deepest, probe.deepest(*engine));
     }
     std::cout << fmt::format("| {} | {} | {:.0f} | {:.1e} | {:.1e} |\n", entry.engine, bounces,

@@ -165,6 +165,7 @@ ContactSolver::Change ContactSolver::sweep(bool all, double quiet) {
     if (!all && std::max(touched_[at(point.a)], touched_[at(point.b)]) < point.relaxed) continue;
     before_[k] = point.lambda;
     const double changed = relax(point);
+    ++sum.points;
     point.relaxed = sweep_;
     if (changed > quiet) touch(point);
     const Vector3 by = point.lambda - before_[k];
@@ -175,8 +176,8 @@ ContactSolver::Change ContactSolver::sweep(bool all, double quiet) {
 }
 
 /// Goes on by `share` of the last search direction, and makes the next one of both. Points that the
-/// sweep left out stay where they are.
-void ContactSolver::goOn(double share) {
+/// sweep left out, or that would change by no more than `quiet`, stay where they are.
+void ContactSolver::goOn(double share, double quiet) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point& point = points_[k];
     if (point.relaxed != sweep_) {
@@ -184,8 +185,9 @@ void ContactSolver::goOn(double share) {
       continue;
     }
     const Vector3 ahead = share * search_[k];
-    search_[k] = ahead + (point.lambda - before_[k]);
-    if (!(squaredNorm(ahead) > 0.0)) continue;
+    search_[k] = point.lambda - before_[k];
+    if (!(ahead.cwiseAbs().cwiseProduct(point.inverse_mass).maxCoeff() > quiet)) continue;
+    search_[k] += ahead;
     point.lambda += ahead;
     apply(point, ahead);
     touch(point);
@@ -201,13 +203,17 @@ int ContactSolver::solve(const Limits& limits) {
   sweep_ = 0;
   bool all = true;
   double last_energy = 0.0;
+  const double quiet = kQuietShare * limits.tolerance;
+  std::size_t left = static_cast<std::size_t>(limits.sweeps) * points_.size();  // to be relaxed
   while (true) {
-    const Change change = sweep(all, kQuietShare * limits.tolerance);
-    if (sweep_ >= limits.sweeps) break;
+    const Change change = sweep(all, quiet);
+    if (change.points >= left) break;
+    left -= change.points;
     const bool solved = change.largest <= limits.tolerance && sweep_ >= limits.least_sweeps;
     if (solved && all) break;
     all = solved || sweep_ < limits.least_sweeps;
-    goOn(last_energy > 0.0 && change.energy <= last_energy ? change.energy / last_energy : 0.0);
+    goOn(last_energy > 0.0 && change.energy <= last_energy ? change.energy / last_energy : 0.0,
+         quiet);
     last_energy = change.energy;
   }
   return sweep_;

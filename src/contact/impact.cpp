@@ -78,7 +78,9 @@ void ImpactSolver::take(const ContactSolver& solver, std::vector<ImpactPoint>& p
     ImpactPoint& point = points[chosen_[k]];
     const Vector3 impulse = solver.impulse(k);
     point.impulse += impulse;
-    const double approach = -speeds_[chosen_[k]];
+    // A point that parted got an impulse because others would have made it approach.
+    const double speed = speeds_[chosen_[k]];
+    const double approach = speed > 0.0 ? solver.stoppedSpeed(k) : -speed;
     point.approach = std::max(point.approach, approach);
     if (dot(impulse, point.nhat_AB_W) > 0.0 && approach > 0.0 &&
         restitutionOf(point, -approach) > 0.0) {
@@ -98,7 +100,8 @@ void ImpactSolver::roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoi
   double share = 1.0;
   for (int attempt = 0; attempt <= kMaxHalvedRestitutions; ++attempt) {
     const double gained = roundOf(solver, points, share, kind);
-    if (gained <= 0.0 || !can_gain || attempt == kMaxHalvedRestitutions) break;
+    if (gained <= 0.0 || !can_gain || kind != Round::kUsual || attempt == kMaxHalvedRestitutions)
+      break;
     for (std::size_t i = 0; i < twists_.size(); ++i) solver.bodies()[i].twist = twists_[i];
     share = attempt + 2 >= kMaxHalvedRestitutions ? 0.0 : 0.5 * share;
   }
@@ -114,11 +117,10 @@ bool ImpactSolver::isApproaching(const ContactSolver& solver,
   });
 }
 
-/// Whether nothing bounces and nothing sticks: points that part need not be left out then.
-bool ImpactSolver::isPlastic(const ContactSolver& solver, const std::vector<ImpactPoint>& points) {
-  return std::none_of(points.begin(), points.end(), [&solver](const ImpactPoint& point) {
-    const double speed = dot(point.nhat_AB_W, velocityAt(solver, point));
-    return point.material.stick || (speed < 0.0 && restitutionOf(point, speed) > 0.0);
+/// Whether nothing can bounce and nothing sticks: points that part need not be left out then.
+bool ImpactSolver::isPlastic(const std::vector<ImpactPoint>& points) {
+  return std::none_of(points.begin(), points.end(), [](const ImpactPoint& point) {
+    return point.material.stick || point.material.restitution > 0.0;
   });
 }
 
@@ -126,8 +128,8 @@ void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& poin
   for (int round = 0; round <= kMaxImpactRounds + 1; ++round) {
     if (!isApproaching(solver, points)) return;
     const Round kind = round > kMaxImpactRounds ? Round::kPlasticWithoutFriction
-                       : round == kMaxImpactRounds || isPlastic(solver, points) ? Round::kPlastic
-                                                                                : Round::kUsual;
+                       : round == kMaxImpactRounds || isPlastic(points) ? Round::kPlastic
+                                                                        : Round::kUsual;
     roundWithoutGain(solver, points, kind);
   }
 }

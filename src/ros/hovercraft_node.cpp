@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::int64_t kIdleWaitNs = 4000000;   // how soon an idle node looks at its clock again
 constexpr std::int64_t kStepSliceNs = 2000000;  // of stepping between two looks at the callbacks
-constexpr std::int64_t kLongestSleepNs = 10000000;  // however long nothing of a step can be seen
-constexpr std::uint32_t kContactQueue = 10000;      // every contact belongs in a recording
+constexpr std::int64_t kLongestSleepNs =
+    10000000;                                   // so few steps that a callback can wait for them
+constexpr std::uint32_t kContactQueue = 10000;  // every contact belongs in a recording
 constexpr std::uint32_t kBodyQueue = 10;
 constexpr std::uint32_t kEventQueue = 1000;  // every event belongs in a recording
 constexpr std::uint32_t kTelemetryQueue = 10;
@@ -143,7 +144,8 @@ hovercraft::Tick HovercraftNode::nextVisibleTick() const {
   hovercraft::Tick visible = nextMultiple(next, config_.publish_every);
   if (config_.lockstep) visible = std::min(visible, nextMultiple(next, config_.control_period));
   if (clock_) {
-    const hovercraft::Tick wait = clock_->untilDueNs(run_.stamp()) / config_.scenario.step_ns;
+    const std::int64_t step_ns = config_.scenario.step_ns;
+    const hovercraft::Tick wait = (clock_->untilDueNs(run_.stamp()) + step_ns - 1) / step_ns;
     visible = std::min(visible, std::max(next, simulation.tick() + wait));
   }
   return visible;
@@ -161,8 +163,13 @@ bool HovercraftNode::isStepDue(std::int64_t now_ns) const {
 }
 
 void HovercraftNode::catchUp() {
+  if (!pacer_) return;
   const std::int64_t now = steadyNow();
-  while (pacer_ && isStepDue(now)) advance();
+  // More than it may have slept through is a backlog: callbacks are handled between its slices.
+  const bool is_behind = isStepDue(now - kLongestSleepNs);
+  do {
+    if (isStepDue(now)) advance();
+  } while (!is_behind && isStepDue(now));
 }
 
 void HovercraftNode::advance() {

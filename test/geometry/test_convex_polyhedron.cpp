@@ -70,6 +70,36 @@ TEST(ConvexPolyhedron, RefusesWhatIsNotAClosedConvexSurface) {
 }
 
 // A cube whose top is a pit: the bottom of the pit is vertex 8.
+TEST(ConvexPolyhedron, RefusesAFlatBodyOfManyVertices) {
+  std::vector<Vector3> circle;
+  Rings both(2);
+  for (int i = 0; i < 300; ++i) {
+    const double angle = 0.02 * i;
+    circle.emplace_back(std::cos(angle), std::sin(angle), 0.5);
+    both[0].push_back(i);
+    both[1].push_back(299 - i);
+  }
+  EXPECT_NE(refusal(circle, both), "");
+}
+
+TEST(ConvexPolyhedron, NeighboursOfALargeOneLieNearEachOtherInMemory) {
+  RandomBodies random(5);
+  const ConvexPolyhedron body = random.ellipsoidHull(2000, {1.0, 0.7, 0.4});
+  // Of all vertices; in the order in which random points came it would be a third of the array.
+  double apart = 0.0;
+  for (const auto& vertex : body.data().vertices) {
+    for (std::int32_t i = 0; i < vertex.fan_count; ++i) {
+      const std::int32_t half =
+          body.data().fan_edge[static_cast<std::size_t>(vertex.fan_begin + i)];
+      const auto& edge = body.edge(half / 2);
+      const auto& end = body.data().vertices[static_cast<std::size_t>(edge.vertex[1 - half % 2])];
+      apart += std::abs(end.fan_begin - vertex.fan_begin);
+    }
+  }
+  const auto fan = static_cast<double>(body.data().fan.size());
+  EXPECT_LT(apart / fan, 0.1 * fan);
+}
+
 TEST(ConvexPolyhedron, NamesTheWorstVertexOfADent) {
   std::vector<Vector3> vertices = kCubeVertices;
   vertices.emplace_back(0.5, 0.5, 0.75);

@@ -6,6 +6,7 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
+from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ros_waiting import wait_until
@@ -24,8 +25,12 @@ class MarkersTest(unittest.TestCase):
         for marker in list(shown.values()):
             wait_until(lambda frame=marker.header.frame_id: buffer.can_transform('world', frame, rospy.Time(0)),
                        'tf of ' + marker.header.frame_id)
-        # The craft starts at 0.8 m/s.
-        wait_until(lambda: len(shown['hovercraft/path', 0].points) > 5, 'the path')
+        thrust = rospy.Publisher('/hovercraft/thrust/rear', Float64, queue_size=1)
+
+        def fly():
+            thrust.publish(3.0)
+            return len(shown['hovercraft/path', 0].points) > 5
+        wait_until(fly, 'the path')
         path = shown['hovercraft/path', 0]
         self.assertEqual(path.action, Marker.ADD)
         self.assertLess(path.points[0].x, path.points[-1].x)

@@ -45,7 +45,7 @@ struct ContactDemand {
 class ContactSolver {
  public:
   struct Limits {
-    int sweeps = 0;  // at most
+    int sweeps = 0;  // at most, over all points; one that leaves points out counts for less
     int least_sweeps = 1;
     double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
   };
@@ -71,6 +71,10 @@ class ContactSolver {
   Vector3 positionOf(std::size_t point) const {
     const Point& at = points_[point];
     return bodies_[static_cast<std::size_t>(at.a)].p_WB + at.r_a;
+  }
+  /// The speed that the impulse of a point took away there along the normal, m/s.
+  double stoppedSpeed(std::size_t point) const {
+    return points_[point].lambda.x() * points_[point].inverse_mass.x();
   }
   /// The impulse on B, N s, in W.
   Vector3 impulse(std::size_t point) const {
@@ -105,6 +109,7 @@ class ContactSolver {
   struct Change {
     double largest = 0.0;  // m/s, of the points
     double energy = 0.0;   // J
+    std::size_t points = 0;
   };
 
   static Vector3 combined(const Vector3 (&vectors)[3], const Vector3& shares) {
@@ -134,7 +139,7 @@ class ContactSolver {
   double relax(Point& point);
   void touch(const Point& point);
   Change sweep(bool all, double quiet);
-  void goOn(double share);
+  void goOn(double share, double quiet);
 
   std::vector<ContactBody> bodies_;
   std::vector<Point> points_;

@@ -29,10 +29,10 @@ struct ImpactPoint {
 /// the kinetic energy, as lambda_n (v_n' + v_n) = 0 at each point; with e < 1 it loses the sum of
 /// (1 - e) lambda_n |v_n| / 2. With friction Newton's law can create energy (Kane 1984); the
 /// restitution of such a round is halved until it does not. Points that stick leave a round with no
-/// relative velocity at all. Where nothing bounces and nothing sticks, one round over all points is
-/// the impact: the nearest velocities, as kinetic energy measures it, that approach nowhere. After
-/// kMaxImpactRounds such a round ends the approach, and if friction keeps it from that, one without
-/// friction: projections, which never gain.
+/// relative velocity at all. Where nothing can bounce and nothing sticks, one round over all points
+/// is the impact: the nearest velocities, as kinetic energy measures it, that approach nowhere.
+/// After kMaxImpactRounds such a round ends the approach, and if friction keeps it from that, one
+/// without friction: projections, which never gain.
 class ImpactSolver {
  public:
   /// @param solver its bodies, whose twists are changed; its points are overwritten.
@@ -44,7 +44,7 @@ class ImpactSolver {
   double roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share, Round kind);
   void roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoint>& points, Round kind);
   static bool isApproaching(const ContactSolver& solver, const std::vector<ImpactPoint>& points);
-  static bool isPlastic(const ContactSolver& solver, const std::vector<ImpactPoint>& points);
+  static bool isPlastic(const std::vector<ImpactPoint>& points);
   void take(const ContactSolver& solver, std::vector<ImpactPoint>& points);
 
   std::vector<std::size_t> chosen_;  // indices of points

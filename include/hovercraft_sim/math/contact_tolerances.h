@@ -53,16 +53,17 @@ constexpr double kLostContact = 10.0;
 /// steps that follow, so that the push is no bounce.
 constexpr double kGapRecovery = 0.2;
 
-/// Speed (m/s) up to which points of an elastic pair stand still: what solving to kRestResidual
-/// leaves, which must not be taken for a bounce.
+/// Speed (m/s) up to which the approach of an elastic pair is rounding and no bounce.
 constexpr double kStillSpeed = 1e-9;
 
 /// Share (-) of the rest gap that what is left unsolved of a resting contact may take in a step:
-/// the recovery of the gap makes up for it.
+/// the recovery of the gap, a fifth of what is missing in each step, makes up for it. From 0.01 to
+/// 0.05 the heap of 100 boxes takes about the same time.
 constexpr double kRestResidual = 0.03;
 
 /// Change of a point (-, of the change at which a solve is done) up to which it wakes none of its
-/// neighbours.
+/// neighbours. In a heap of 100 boxes 0.3 took the fewest relaxations: with 0.1 more points stay
+/// awake, with 0.7 more sweeps over all find something left.
 constexpr double kQuietShare = 0.3;
 
 /// Share (-) of the rest gap up to which the approach of a resting pair may eat into it in a step

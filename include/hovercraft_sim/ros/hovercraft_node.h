@@ -45,7 +45,7 @@ class HovercraftNode {
   // Control, from callbacks of run()'s thread.
   /// Makes the steps that are due by now. The node sleeps through steps that nobody can see; a
   /// callback that looks or changes something comes after this, and finds what would be there had
-  /// each been made in its time.
+  /// each been made in its time. A node that is behind its pace makes a slice of its backlog only.
   void catchUp();
   void pause() { paused_ = true; }
   void resume();
