@@ -18,10 +18,11 @@ constexpr std::size_t kLongestShown = 80;  // bytes of a value in a message
 std::string textOf(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "";
   if (node.IsScalar()) return node.Scalar();
+  // The style of the node decides: yaml-cpp 0.6 does not heed that of the emitter.
+  YAML::Node in_braces = YAML::Clone(node);
+  in_braces.SetStyle(YAML::EmitterStyle::Flow);
   YAML::Emitter emitter;
-  emitter.SetSeqFormat(YAML::Flow);
-  emitter.SetMapFormat(YAML::Flow);
-  emitter << node;
+  emitter << in_braces;
   return emitter.c_str();
 }
 
