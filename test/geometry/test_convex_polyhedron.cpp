@@ -88,9 +88,9 @@ TEST(ConvexPolyhedron, NeighboursOfALargeOneLieNearEachOtherInMemory) {
   // Of all vertices; in the order in which random points came it would be a third of the array.
   double apart = 0.0;
   for (const auto& vertex : body.data().vertices) {
-    for (std::int32_t i = 0; i < vertex.fan_count; ++i) {
-      const std::int32_t half =
-          body.data().fan_edge[static_cast<std::size_t>(vertex.fan_begin + i)];
+    const std::int32_t fan_end = vertex.fan_begin + vertex.fan_count;
+    for (std::int32_t i = vertex.fan_begin; i < fan_end; ++i) {
+      const std::int32_t half = body.data().fan_edge[static_cast<std::size_t>(i)];
       const auto& edge = body.edge(half / 2);
       const auto& end = body.data().vertices[static_cast<std::size_t>(edge.vertex[1 - half % 2])];
       apart += std::abs(end.fan_begin - vertex.fan_begin);
