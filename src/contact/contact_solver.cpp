@@ -203,7 +203,8 @@ int ContactSolver::solve(const Limits& limits) {
   sweep_ = 0;
   bool all = true;
   double last_energy = 0.0;
-  const double quiet = kQuietShare * limits.tolerance;
+  const bool is_crowd = points_.size() >= kQuietCrowd;
+  const double quiet = is_crowd ? kQuietShare * limits.tolerance : 0.0;
   std::size_t left = static_cast<std::size_t>(limits.sweeps) * points_.size();  // to be relaxed
   while (true) {
     const Change change = sweep(all, quiet);
@@ -211,7 +212,7 @@ int ContactSolver::solve(const Limits& limits) {
     left -= change.points;
     const bool solved = change.largest <= limits.tolerance && sweep_ >= limits.least_sweeps;
     if (solved && all) break;
-    all = solved || sweep_ < limits.least_sweeps;
+    all = !is_crowd || solved || sweep_ < limits.least_sweeps;
     goOn(last_energy > 0.0 && change.energy <= last_energy ? change.energy / last_energy : 0.0,
          quiet);
     last_energy = change.energy;
