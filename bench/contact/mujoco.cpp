@@ -35,41 +35,31 @@ std::string modelXml(const BoxScene& scene) {
 /// MuJoCo as it comes: soft contacts, Newton's solver, Euler. It knows no restitution.
 class Mujoco : public BoxEngine {
  public:
-  explicit Mujoco(const BoxScene& scene)
-      : model_(loadMujoco(modelXml(scene))),
-        data_(mj_makeData(model_)),
-        joint_(scene.boxes.size()) {
+  explicit Mujoco(const BoxScene& scene) : world_(modelXml(scene)), joint_(scene.boxes.size()) {
     std::ptrdiff_t joint = 0;
     for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
       if (scene.boxes[i].isFixed()) continue;
       joint_[i] = joint++;
-      mjtNum* v = data_->qvel + kVelocities * joint_[i];
+      mjtNum* v = world_.data().qvel + kVelocities * joint_[i];
       const Vector3& velocity = scene.boxes[i].velocity;
       const Vector3 spin =
           rotate(conjugate(scene.boxes[i].attitude()), scene.boxes[i].angular_velocity);
       std::copy(velocity.data(), velocity.data() + 3, v);
       std::copy(spin.data(), spin.data() + 3, v + 3);
     }
-    mj_forward(model_, data_);
+    world_.forward();
   }
-  ~Mujoco() override {
-    mj_deleteData(data_);
-    mj_deleteModel(model_);
-  }
-  Mujoco(const Mujoco&) = delete;
-  Mujoco& operator=(const Mujoco&) = delete;
 
-  void step() override { mj_step(model_, data_); }
+  void step() override { world_.step(); }
   BoxMotion motion(std::size_t box) const override {
-    const mjtNum* p = data_->qpos + kPositions * joint_[box];
-    const mjtNum* v = data_->qvel + kVelocities * joint_[box];
+    const mjtNum* p = world_.data().qpos + kPositions * joint_[box];
+    const mjtNum* v = world_.data().qvel + kVelocities * joint_[box];
     const Quaternion q_WB = {p[3], {p[4], p[5], p[6]}};
     return {{p[0], p[1], p[2]}, q_WB, {v[0], v[1], v[2]}, rotate(q_WB, {v[3], v[4], v[5]})};
   }
 
  private:
-  mjModel* model_;
-  mjData* data_;
+  MujocoWorld world_;
   std::vector<std::ptrdiff_t> joint_;  // of each box that is not fixed
 };
 

@@ -27,32 +27,25 @@ std::string modelXml(const FreeCase& body, double h, const char* integrator) {
 class Mujoco : public Peer {
  public:
   Mujoco(const FreeCase& body, double h, const char* integrator)
-      : model_(loadMujoco(modelXml(body, h, integrator))), data_(mj_makeData(model_)) {
+      : world_(modelXml(body, h, integrator)) {
     // The velocity of a free joint: of its origin in W, then angular in B.
-    std::copy(body.w_WB_B.data(), body.w_WB_B.data() + 3, data_->qvel + 3);
-    mj_forward(model_, data_);
+    std::copy(body.w_WB_B.data(), body.w_WB_B.data() + 3, world_.data().qvel + 3);
+    world_.forward();
   }
-  ~Mujoco() override {
-    mj_deleteData(data_);
-    mj_deleteModel(model_);
-  }
-  Mujoco(const Mujoco&) = delete;
-  Mujoco& operator=(const Mujoco&) = delete;
 
   void step(const Vector3& f_B) override {
-    mju_rotVecQuat(data_->xfrc_applied + kForce, f_B.data(), data_->qpos + 3);
-    mj_step(model_, data_);
+    mju_rotVecQuat(world_.data().xfrc_applied + kForce, f_B.data(), world_.data().qpos + 3);
+    world_.step();
   }
   Quaternion attitude() const override {
-    const mjtNum* q = data_->qpos + 3;
+    const mjtNum* q = world_.data().qpos + 3;
     return {q[0], {q[1], q[2], q[3]}};
   }
 
  private:
   static constexpr std::ptrdiff_t kForce = 6;  // body 0 is the world, 6 numbers to each
 
-  mjModel* model_;
-  mjData* data_;
+  MujocoWorld world_;
 };
 
 }  // namespace

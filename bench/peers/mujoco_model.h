@@ -24,4 +24,25 @@ inline mjModel* loadMujoco(const std::string& xml) {
   return model;
 }
 
+/// A model and its state.
+class MujocoWorld {
+ public:
+  explicit MujocoWorld(const std::string& xml)
+      : model_(loadMujoco(xml)), data_(mj_makeData(model_)) {}
+  ~MujocoWorld() {
+    mj_deleteData(data_);
+    mj_deleteModel(model_);
+  }
+  MujocoWorld(const MujocoWorld&) = delete;
+  MujocoWorld& operator=(const MujocoWorld&) = delete;
+
+  mjData& data() const { return *data_; }
+  void forward() { mj_forward(model_, data_); }
+  void step() { mj_step(model_, data_); }
+
+ private:
+  mjModel* model_;
+  mjData* data_;
+};
+
 }  // namespace hovercraft::bench

@@ -38,10 +38,10 @@ struct ContactDemand {
 ///
 /// Projected Gauss-Seidel sweeps in the order of the points, between which the search goes on as
 /// conjugate gradients do (Silcowitz, Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate
-/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. Sweeps leave
-/// out the points whose bodies hardly changed since; when nothing is left to do a sweep over all
-/// points decides whether it is solved. The last thing is always a sweep, whose impulses obey the
-/// bounds. No allocation once it has grown to its working size.
+/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. In a crowd
+/// sweeps leave out the points whose bodies hardly changed since; when nothing is left to do a
+/// sweep over all points decides whether it is solved. The last thing is always a sweep, whose
+/// impulses obey the bounds. No allocation once it has grown to its working size.
 class ContactSolver {
  public:
   struct Limits {
