@@ -194,13 +194,18 @@ void ContactSolver::goOn(double share, double quiet) {
   }
 }
 
-int ContactSolver::solve(const Limits& limits) {
+/// Forgets the sweeps of the last solve.
+void ContactSolver::startSweeps() {
   search_.assign(points_.size(), Vector3::Zero());
   before_.resize(points_.size());
   for (Point& point : points_) point.relaxed = 0;
   touched_.clear();
   for (const ContactBody& body : bodies_) touched_.push_back(isFixed(body) ? kFixed : 0);
   sweep_ = 0;
+}
+
+int ContactSolver::solve(const Limits& limits) {
+  startSweeps();
   bool all = true;
   double last_energy = 0.0;
   const bool is_crowd = points_.size() >= kQuietCrowd;

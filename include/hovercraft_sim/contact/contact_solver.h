@@ -137,6 +137,7 @@ class ContactSolver {
   static void weigh(Point& point, const Vector3 (&velocities)[3]);
   static void relaxTangents(Point& point, double v_s, double v_t);
   double relax(Point& point);
+  void startSweeps();
   void touch(const Point& point);
   Change sweep(bool all, double quiet);
   void goOn(double share, double quiet);
