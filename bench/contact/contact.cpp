@@ -76,34 +76,49 @@ std::string farObstacles(int count) {
   return world;
 }
 
-/// The least of several runs: what the machine's other work cannot shorten. ns per step.
-double stepTime(const std::string& yaml) {
-  Simulation simulation(parseScenario(YAML::Load(yaml), {"bench", "", {}}));
-  double least = 1e9;
-  for (int run = 0; run < 60; ++run) {
-    const double begin = processorTime();
-    for (int i = 0; i < 20000; ++i) simulation.step();
-    least = std::min(least, (processorTime() - begin) / 20000 * 1e9);
+Simulation simulationOf(const std::string& yaml) {
+  return Simulation(parseScenario(YAML::Load(yaml), {"bench", "", {}}));
+}
+
+/// ns per step, mean of a block.
+double blockTime(Simulation& simulation) {
+  constexpr int steps = 5000;
+  const double begin = processorTime();
+  for (int i = 0; i < steps; ++i) simulation.step();
+  return (processorTime() - begin) / steps * 1e9;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+/// Two scenarios in turn, so that the machine's other work meets both: medians of each, and of the
+/// ratios of neighbours.
+void compareSteps(const char* what, const std::string& first, const std::string& second) {
+  Simulation simulations[] = {simulationOf(first), simulationOf(second)};
+  std::vector<double> times[2];
+  std::vector<double> ratios;
+  for (int round = 0; round < 400; ++round) {
+    for (int i = 0; i < 2; ++i) times[i].push_back(blockTime(simulations[i]));
+    ratios.push_back(times[1].back() / times[0].back());
   }
-  return least;
+  std::cout << fmt::format("step, {}: {:.0f} ns and {:.0f} ns, {:.3f} x\n", what, median(times[0]),
+                           median(times[1]), median(ratios))
+            << std::flush;
 }
 
 void stepCost() {
-  for (const char* model : {"planar", "spatial"}) {
-    const double none = stepTime(craft(model, ""));
-    const double pen = stepTime(craft(model, walls()));
-    std::cout << fmt::format("step, {}: {:.0f} ns without a world, {:.0f} ns in a pen, {:.2f} x\n",
-                             model, none, pen, pen / none);
-  }
-  const double ten = stepTime(craft("planar", farObstacles(10)));
-  const double thousand = stepTime(craft("planar", farObstacles(1000)));
-  std::cout << fmt::format(
-      "step: {:.1f} ns with 10 far obstacles, {:.1f} ns with 1000, {:+.1f} %\n", ten, thousand,
-      100.0 * (thousand / ten - 1.0));
+  compareSteps("planar, without a world and in a pen", craft("planar", ""),
+               craft("planar", walls()));
+  compareSteps("spatial, without a world and in a pen", craft("spatial", ""),
+               craft("spatial", walls()));
+  compareSteps("10 and 1000 far obstacles", craft("planar", farObstacles(10)),
+               craft("planar", farObstacles(1000)));
 }
 
-/// 100 boxes of 0.2 m and 1 kg over a pen of 2 m.
-BoxScene heapScene() {
+/// 100 boxes of 0.2 m and 1 kg over a pen of 2 m, turned otherwise in each arrangement.
+BoxScene heapScene(int arrangement) {
   BoxScene scene = {0.001, 5e-5, 0.0, 0.5, {0.0, 0.0, -9.81}, {}};
   scene.boxes.push_back({{6.0, 6.0, 1.0}, 0.0, {0.0, 0.0, -0.5}});
   for (const double side : {-1.5, 1.5}) {
@@ -114,7 +129,8 @@ BoxScene heapScene() {
     const int layer = k / 9;
     const Vector3 position(0.5 * (k % 3 - 1) + 0.01 * (k % 7),
                            0.5 * (k / 3 % 3 - 1) + 0.01 * (k % 5), 0.3 + 0.45 * layer);
-    scene.boxes.push_back({{0.2, 0.2, 0.2}, 1.0, position, 0.37 * k * Vector3(1.0, 0.7, 1.3)});
+    const double turn = (0.37 + 0.05 * arrangement) * k;  // rad
+    scene.boxes.push_back({{0.2, 0.2, 0.2}, 1.0, position, turn * Vector3(1.0, 0.7, 1.3)});
   }
   return scene;
 }
@@ -155,31 +171,55 @@ class OverlapProbe {
   std::vector<ConvexPolyhedron> hulls_;
 };
 
-/// 100 boxes fall into a pen, 5 s.
-void heap() {
-  constexpr int steps = 5000;
+/// What a heap took, and how its boxes overlapped.
+struct HeapRun {
+  double time;     // s of the processor, in steps
+  double deepest;  // m, overlap on the way
+  double last;     // m, at the end
+  std::int64_t stalls;
+};
+
+constexpr int kHeapSteps = 5000;
+
+HeapRun runHeap(const Entry& entry, const BoxScene& scene) {
   constexpr int look_every = 100;
-  const BoxScene scene = heapScene();
   const OverlapProbe probe(scene);
+  const std::unique_ptr<BoxEngine> engine = entry.make(scene);
+  HeapRun run{};
+  for (int i = 1; i <= kHeapSteps; ++i) {
+    const double begin = processorTime();
+    engine->step();
+    run.time += processorTime() - begin;
+    if (i % look_every != 0) continue;
+    run.last = probe.deepest(*engine);
+    run.deepest = std::max(run.deepest, run.last);
+  }
+  run.stalls = engine->stalls();
+  return run;
+}
+
+/// 100 boxes fall into a pen, 5 s; a heap is chaotic, so several are flown.
+void heap() {
+  constexpr int arrangements = 5;
   std::cout
-      << "| heap, 5 s | processor time (s) | times real time | deepest overlap (m) | at the end "
-         "(m) | steps cut off |\n|---|---|---|---|---|---|\n";
+      << "| heap, 5 s | times real time: median | least | most | deepest overlap (m) | at the "
+         "end (m) | steps cut off |\n|---|---|---|---|---|---|---|\n";
   for (const Entry& entry : entries()) {
-    const std::unique_ptr<BoxEngine> engine = entry.make(scene);
-    double stepping = 0.0;
-    double deepest = 0.0;
-    double last = 0.0;
-    for (int i = 1; i <= steps; ++i) {
-      const double begin = processorTime();
-      engine->step();
-      stepping += processorTime() - begin;
-      if (i % look_every != 0) continue;
-      last = probe.deepest(*engine);
-      deepest = std::max(deepest, last);
+    std::vector<double> rates;
+    HeapRun worst{};
+    for (int arrangement = 0; arrangement < arrangements; ++arrangement) {
+      const BoxScene scene = heapScene(arrangement);
+      const HeapRun run = runHeap(entry, scene);
+      rates.push_back(kHeapSteps * scene.step / run.time);
+      worst.deepest = std::max(worst.deepest, run.deepest);
+      worst.last = std::max(worst.last, run.last);
+      worst.stalls += run.stalls;
     }
-    std::cout << fmt::format("| {} | {:.2f} | {:.2f} | {:.1e} | {:.1e} | {} |\n", entry.engine,
-                             stepping, steps * scene.step / stepping, deepest, last,
-                             engine->stalls())
+    std::cout << fmt::format("| {} | {:.2f} | {:.2f} | {:.2f} | {:.1e} | {:.1e} | {} |\n",
+                             entry.engine, median(rates),
+                             *std::min_element(rates.begin(), rates.end()),
+                             *std::max_element(rates.begin(), rates.end()), worst.deepest,
+                             worst.last, worst.stalls)
               << std::flush;
   }
 }

@@ -9,14 +9,8 @@
 namespace hovercraft {
 namespace {
 
-constexpr int kFixed = -1;  // what a body that cannot move is touched in
-
 std::size_t at(std::int32_t index) {
   return static_cast<std::size_t>(index);
-}
-
-bool isFixed(const ContactBody& body) {
-  return body.inverse_mass == Vector3::Zero() && body.inverse_inertia == Matrix3::Zero();
 }
 
 /// Bound on a component of the normal (-) below which its axis serves to build a tangent: just
@@ -147,82 +141,41 @@ inline double ContactSolver::relax(Point& point) {
   return changed;
 }
 
-/// A body that was touched wakes its points for the sweep that follows.
-void ContactSolver::touch(const Point& point) {
-  for (const std::int32_t body : {point.a, point.b}) {
-    int& touched = touched_[at(body)];
-    if (touched != kFixed) touched = sweep_;
-  }
-}
-
-/// Relaxes all points, or those whose bodies were touched since they were relaxed last.
-/// @param quiet m/s: a point that changes by no more touches nobody.
-ContactSolver::Change ContactSolver::sweep(bool all, double quiet) {
-  ++sweep_;
+ContactSolver::Change ContactSolver::sweep() {
   Change sum;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point& point = points_[k];
-    if (!all && std::max(touched_[at(point.a)], touched_[at(point.b)]) < point.relaxed) continue;
     before_[k] = point.lambda;
-    const double changed = relax(point);
-    ++sum.points;
-    point.relaxed = sweep_;
-    if (changed > quiet) touch(point);
+    sum.largest = std::max(sum.largest, relax(point));
     const Vector3 by = point.lambda - before_[k];
-    sum.largest = std::max(sum.largest, changed);
     sum.energy += dot(by, Vector3(by.cwiseProduct(point.inverse_mass)));
   }
   return sum;
 }
 
-/// Goes on by `share` of the last search direction, and makes the next one of both. Points that the
-/// sweep left out, or that would change by no more than `quiet`, stay where they are.
-void ContactSolver::goOn(double share, double quiet) {
+/// Goes on by `share` of the last search direction, and makes the next one of both.
+void ContactSolver::goOn(double share) {
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point& point = points_[k];
-    if (point.relaxed != sweep_) {
-      search_[k] = Vector3::Zero();
-      continue;
-    }
     const Vector3 ahead = share * search_[k];
-    search_[k] = point.lambda - before_[k];
-    if (!(ahead.cwiseAbs().cwiseProduct(point.inverse_mass).maxCoeff() > quiet)) continue;
-    search_[k] += ahead;
+    search_[k] = (point.lambda - before_[k]) + ahead;
+    if (squaredNorm(ahead) == 0.0) continue;
     point.lambda += ahead;
     apply(point, ahead);
-    touch(point);
   }
-}
-
-/// Forgets the sweeps of the last solve.
-void ContactSolver::startSweeps() {
-  search_.assign(points_.size(), Vector3::Zero());
-  before_.resize(points_.size());
-  for (Point& point : points_) point.relaxed = 0;
-  touched_.clear();
-  for (const ContactBody& body : bodies_) touched_.push_back(isFixed(body) ? kFixed : 0);
-  sweep_ = 0;
 }
 
 int ContactSolver::solve(const Limits& limits) {
-  startSweeps();
-  bool all = true;
+  search_.assign(points_.size(), Vector3::Zero());
+  before_.resize(points_.size());
   double last_energy = 0.0;
-  const bool is_crowd = points_.size() >= kQuietCrowd;
-  const double quiet = is_crowd ? kQuietShare * limits.tolerance : 0.0;
-  std::size_t left = static_cast<std::size_t>(limits.sweeps) * points_.size();  // to be relaxed
-  while (true) {
-    const Change change = sweep(all, quiet);
-    if (change.points >= left) break;
-    left -= change.points;
-    const bool solved = change.largest <= limits.tolerance && sweep_ >= limits.least_sweeps;
-    if (solved && all) break;
-    all = !is_crowd || solved || sweep_ < limits.least_sweeps;
-    goOn(last_energy > 0.0 && change.energy <= last_energy ? change.energy / last_energy : 0.0,
-         quiet);
+  for (int sweeps = 1;; ++sweeps) {
+    const Change change = sweep();
+    const bool solved = change.largest <= limits.tolerance && sweeps >= limits.least_sweeps;
+    if (solved || sweeps >= limits.sweeps) return sweeps;
+    goOn(last_energy > 0.0 && change.energy <= last_energy ? change.energy / last_energy : 0.0);
     last_energy = change.energy;
   }
-  return sweep_;
 }
 
 }  // namespace hovercraft

@@ -32,6 +32,19 @@ double scaleOf(const ContactSolver& solver, const std::vector<ImpactPoint>& poin
   return scale;
 }
 
+/// Whether nothing can bounce and nothing sticks: points that part need not be left out then.
+bool isPlastic(const std::vector<ImpactPoint>& points) {
+  return std::none_of(points.begin(), points.end(), [](const ImpactPoint& point) {
+    return point.material.stick || point.material.restitution > 0.0;
+  });
+}
+
+bool hasFriction(const std::vector<ImpactPoint>& points) {
+  return std::any_of(points.begin(), points.end(), [](const ImpactPoint& point) {
+    return point.material.stick || point.material.friction > 0.0;
+  });
+}
+
 }  // namespace
 
 /// One simultaneous solve. @param share of each restitution. @returns the energy that it added, J.
@@ -63,9 +76,8 @@ double ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& po
     solver.add(asked);
   }
   const auto count = static_cast<int>(chosen_.size());
-  const double residual = points.size() < kCrowd ? kImpactResidual : kCrowdResidual;
   solver.solve({std::max(kMinImpactSweeps, kMaxImpactRelaxations / std::max(1, count)), 1,
-                residual * scale});
+                std::max(residual_ * scale, kLeftResidual * may_leave_)});
   double gained = 0.0;
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     gained += 0.5 * dot(solver.impulse(k), Vector3(before_[k] + solver.velocityAt(k)));
@@ -92,9 +104,7 @@ void ImpactSolver::take(const ContactSolver& solver, std::vector<ImpactPoint>& p
 /// A round, with as much of its restitution as does not add energy.
 void ImpactSolver::roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoint>& points,
                                     Round kind) {
-  const bool can_gain = std::any_of(points.begin(), points.end(), [](const ImpactPoint& p) {
-    return p.material.friction > 0.0 || p.material.stick;
-  });
+  const bool can_gain = hasFriction(points);
   twists_.clear();
   for (const ContactBody& body : solver.bodies()) twists_.push_back(body.twist);
   double share = 1.0;
@@ -109,27 +119,27 @@ void ImpactSolver::roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoi
 }
 
 bool ImpactSolver::isApproaching(const ContactSolver& solver,
-                                 const std::vector<ImpactPoint>& points) {
-  const double standing = points.size() < kCrowd ? kStandingPoint : 10.0 * kCrowdResidual;
-  const double tolerance = standing * scaleOf(solver, points);
+                                 const std::vector<ImpactPoint>& points) const {
+  const double standing = std::max(kStandingPoint, 10.0 * residual_);
+  const double tolerance = std::max(standing * scaleOf(solver, points), may_leave_);
   return std::any_of(points.begin(), points.end(), [&](const ImpactPoint& point) {
     return dot(point.nhat_AB_W, velocityAt(solver, point)) < -tolerance;
   });
 }
 
-/// Whether nothing can bounce and nothing sticks: points that part need not be left out then.
-bool ImpactSolver::isPlastic(const std::vector<ImpactPoint>& points) {
-  return std::none_of(points.begin(), points.end(), [](const ImpactPoint& point) {
-    return point.material.stick || point.material.restitution > 0.0;
-  });
-}
-
-void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& points) {
+void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& points,
+                           double may_leave) {
+  const bool is_plastic = isPlastic(points);
+  const bool is_crowd = points.size() >= kCrowd;
+  residual_ = is_plastic                        ? kPlasticResidual
+              : is_crowd && hasFriction(points) ? kCrowdResidual
+                                                : kImpactResidual;
+  may_leave_ = is_plastic && is_crowd ? may_leave : 0.0;
   for (int round = 0; round <= kMaxImpactRounds + 1; ++round) {
     if (!isApproaching(solver, points)) return;
-    const Round kind = round > kMaxImpactRounds ? Round::kPlasticWithoutFriction
-                       : round == kMaxImpactRounds || isPlastic(points) ? Round::kPlastic
-                                                                        : Round::kUsual;
+    const Round kind = round > kMaxImpactRounds                  ? Round::kPlasticWithoutFriction
+                       : round == kMaxImpactRounds || is_plastic ? Round::kPlastic
+                                                                 : Round::kUsual;
     roundWithoutGain(solver, points, kind);
   }
 }

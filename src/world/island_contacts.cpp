@@ -142,19 +142,22 @@ void Island::strike(double now) {
   if (s_.impact_points.empty()) return;
   addBodies(false);
   if (!isStruck()) return;
-  s_.impact.resolve(s_.solver, s_.impact_points);
+  s_.impact.resolve(s_.solver, s_.impact_points, slowApproach());
   for (const ImpactPoint& point : s_.impact_points) {
     if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, world_, s_.members);
   }
   report(now);
 }
 
+/// The approach that a resting contact stops by itself, m/s.
+double Island::slowApproach() const {
+  return kRestApproach * kRestGap * world_.rules_.tolerance / world_.rules_.step;
+}
+
 /// Whether some pair that touches approaches faster than its resting contact stops by itself.
 bool Island::isStruck() const {
-  const WorldRules& rules = world_.rules_;
-  const double slow = kRestApproach * kRestGap * rules.tolerance / rules.step;
   for (const IslandLink& link : s_.links) {
-    const double bound = link.memory.resting ? slow : kStillSpeed;
+    const double bound = link.memory.resting ? slowApproach() : kStillSpeed;
     for (std::size_t k = link.first_point;
          k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
       const ImpactPoint& point = s_.impact_points[k];

@@ -38,14 +38,13 @@ struct ContactDemand {
 ///
 /// Projected Gauss-Seidel sweeps in the order of the points, between which the search goes on as
 /// conjugate gradients do (Silcowitz, Niebe and Erleben 2010, "A nonsmooth nonlinear conjugate
-/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. In a crowd
-/// sweeps leave out the points whose bodies hardly changed since; when nothing is left to do a
-/// sweep over all points decides whether it is solved. The last thing is always a sweep, whose
-/// impulses obey the bounds. No allocation once it has grown to its working size.
+/// gradient method"): the sway of a stack of n bodies takes sweeps alone n⁴ of them. The last thing
+/// is always a sweep, whose impulses obey the bounds. No allocation once it has grown to its
+/// working size.
 class ContactSolver {
  public:
   struct Limits {
-    int sweeps = 0;  // at most, over all points; one that leaves points out counts for less
+    int sweeps = 0;  // at most
     int least_sweeps = 1;
     double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
   };
@@ -102,14 +101,12 @@ class ContactSolver {
     double target;     // m/s
     double friction;
     bool bilateral;
-    int relaxed;  // the last sweep that it was relaxed in
   };
 
   /// What a sweep changed.
   struct Change {
     double largest = 0.0;  // m/s, of the points
     double energy = 0.0;   // J
-    std::size_t points = 0;
   };
 
   static Vector3 combined(const Vector3 (&vectors)[3], const Vector3& shares) {
@@ -137,15 +134,11 @@ class ContactSolver {
   static void weigh(Point& point, const Vector3 (&velocities)[3]);
   static void relaxTangents(Point& point, double v_s, double v_t);
   double relax(Point& point);
-  void startSweeps();
-  void touch(const Point& point);
-  Change sweep(bool all, double quiet);
-  void goOn(double share, double quiet);
+  Change sweep();
+  void goOn(double share);
 
   std::vector<ContactBody> bodies_;
   std::vector<Point> points_;
-  int sweep_ = 0;                // of this solve, from 1
-  std::vector<int> touched_;     // the last sweep that changed a body
   std::vector<Vector3> before_;  // N s: the impulses before the last sweep
   std::vector<Vector3> search_;  // N s
 };

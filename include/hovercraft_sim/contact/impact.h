@@ -36,17 +36,19 @@ struct ImpactPoint {
 class ImpactSolver {
  public:
   /// @param solver its bodies, whose twists are changed; its points are overwritten.
-  void resolve(ContactSolver& solver, std::vector<ImpactPoint>& points);
+  /// @param may_leave m/s, approach that may be left in a crowd (kCrowd) in which nothing bounces.
+  void resolve(ContactSolver& solver, std::vector<ImpactPoint>& points, double may_leave = 0.0);
 
  private:
   enum class Round { kUsual, kPlastic, kPlasticWithoutFriction };
 
   double roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share, Round kind);
   void roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoint>& points, Round kind);
-  static bool isApproaching(const ContactSolver& solver, const std::vector<ImpactPoint>& points);
-  static bool isPlastic(const std::vector<ImpactPoint>& points);
+  bool isApproaching(const ContactSolver& solver, const std::vector<ImpactPoint>& points) const;
   void take(const ContactSolver& solver, std::vector<ImpactPoint>& points);
 
+  double residual_ = 0.0;            // (-) of the fastest point
+  double may_leave_ = 0.0;           // m/s
   std::vector<std::size_t> chosen_;  // indices of points
   std::vector<Vector3> before_;      // m/s, velocities of the chosen
   std::vector<double> speeds_;       // m/s, along the normal, of all points

@@ -27,6 +27,20 @@ constexpr double kStandingPoint = 1e-13;
 /// units in the last place.
 constexpr double kImpactResidual = 1e-15;
 
+/// The same where nothing bounces: the error of the energy is the square of it.
+constexpr double kPlasticResidual = 1e-10;
+
+/// Number of points from which on an impact is a crowd's.
+constexpr std::size_t kCrowd = 40;
+
+/// The residual of a crowd that bounces with friction: to the last places it would take hundreds of
+/// sweeps a round.
+constexpr double kCrowdResidual = 1e-5;
+
+/// Where nothing bounces, the resting contacts of a crowd go on with what an impact leaves: it is
+/// solved when no sweep changes more than this share (-) of the approach that they stop.
+constexpr double kLeftResidual = 0.3;
+
 /// Bound on how often a point is relaxed in one round of an impact, all points together: four
 /// points of a face need some hundred each, nearly dependent ones ten thousand.
 constexpr int kMaxImpactRelaxations = 80000;
@@ -61,26 +75,12 @@ constexpr double kStillSpeed = 1e-9;
 /// the heap of 100 boxes takes about the same time.
 constexpr double kRestResidual = 0.03;
 
-/// Change of a point (-, of the change at which a solve is done) up to which it wakes none of its
-/// neighbours. In a heap of 100 boxes 0.3 took the fewest relaxations: with 0.1 more points stay
-/// awake, with 0.7 more sweeps over all find something left.
-constexpr double kQuietShare = 0.3;
-
-/// Number of points from which on sweeps leave some out. A stack of ten boxes, 40 points that all
-/// hang together, takes four times as long with it.
-constexpr std::size_t kQuietCrowd = 200;
-
 /// Share (-) of the rest gap up to which the approach of a resting pair may eat into it in a step
 /// without being an impact: the force over the step stops it.
 constexpr double kRestApproach = 0.2;
 
 /// Least sweeps (-) of resting contacts: from step to step they bring a stack to its exact forces.
 constexpr int kLeastRestSweeps = 4;
-
-/// Number of points from which on an impact is solved only to kCrowdResidual (-, of the fastest
-/// point): what is left of it is taken up by the resting contacts of the crowd.
-constexpr std::size_t kCrowd = 40;
-constexpr double kCrowdResidual = 1e-5;
 
 /// Bound on how often a point is relaxed in one solve of resting contacts, all points together. The
 /// solve starts from the forces of the last step, so that a stack at rest needs a sweep or two; a
@@ -112,10 +112,6 @@ constexpr int kMaxEventsPerPair = 2;
 /// Bound on how often a piece of a step is cut to the time of impact until the integrator's own
 /// path is clear; each cut shortens the piece's curve by the cube of its length.
 constexpr int kMaxCuts = 10;
-
-/// Cuts after which a piece is halved at least: two resting bodies that slide around each other can
-/// dip on every piece that ends at the time of impact of a longer one.
-constexpr int kImpactCuts = 2;
 
 /// What is left (-) of the distance that counts as an impact with each such cut.
 constexpr double kCutShare = 0.7;

@@ -70,6 +70,7 @@ class Island {
   ClosestFeatures closestNow(IslandLink& link);
   bool shiftApart(const IslandLink& link, double by);
   void strike(double now);
+  double slowApproach() const;
   bool isStruck() const;
   void report(double now);
   void press(double now);
