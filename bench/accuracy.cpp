@@ -94,12 +94,7 @@ void compareWithCheckCase() {
 
 int main(int argc, char** argv) {
   try {
-    std::ofstream csv;
-    if (argc > 1) {
-      csv.open(argv[1]);
-      if (!csv) throw std::invalid_argument(fmt::format("{}: cannot be written", argv[1]));
-    }
-    csv << "body,engine,method,step_size,attitude_error,energy_drift\n";
+    std::ofstream csv = hovercraft::bench::errorTable(argc > 1 ? argv[1] : nullptr);
     hovercraft::bench::report(hovercraft::bench::asymmetricBody(), csv);
     hovercraft::bench::report(hovercraft::bench::tumblingBrick(), csv);
     hovercraft::bench::compareWithCheckCase();

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <fmt/format.h>
+#include <fstream>
+#include <stdexcept>
 #include <vector>
 
 #include "hovercraft_sim/body/rigid_body.h"
@@ -46,6 +49,18 @@ inline std::vector<std::int64_t> comparedStepsNs() {
 /// The angle between an attitude at the end of the case and the exact one, rad.
 inline double attitudeError(const FreeCase& body, const Quaternion& q_WB) {
   return angleBetween(quaternionFromMatrix(body.exact().attitude(body.duration)), q_WB);
+}
+
+/// The table of errors that plot_accuracy.py reads: a file with its header, or nowhere if `path` is
+/// null. @throws std::invalid_argument if it cannot be written.
+inline std::ofstream errorTable(const char* path) {
+  std::ofstream csv;
+  if (path != nullptr) {
+    csv.open(path);
+    if (!csv) throw std::invalid_argument(fmt::format("{}: cannot be written", path));
+  }
+  csv << "body,engine,method,step_size,attitude_error,energy_drift\n";
+  return csv;
 }
 
 }  // namespace hovercraft::bench

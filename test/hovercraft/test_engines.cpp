@@ -7,6 +7,8 @@
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/math/elementary.h"
 
+#include "../support/skew_engines.h"
+
 namespace hovercraft {
 namespace {
 
@@ -15,20 +17,8 @@ constexpr std::int64_t kStepNs = 10000000;  // 10 ms
 constexpr int kRear = static_cast<int>(EngineId::kRear);
 constexpr int kLeft = static_cast<int>(EngineId::kLeft);
 
-using Engines = std::array<EngineParameters, kEngineCount>;
-
-/// Three engines at general places, in general directions.
-Engines generalEngines() {
-  Engines engines;
-  engines[0].p_HE = {-0.25, 0.02, 0.05};
-  engines[0].direction = {1.0, 0.0, 0.0};
-  engines[1].p_HE = {0.2, 0.15, -0.03};
-  engines[1].direction = {0.0, -0.6, 0.8};
-  engines[2].p_HE = {0.21, -0.16, 0.04};
-  engines[2].direction = {0.48, 0.64, -0.6};
-  for (EngineParameters& engine : engines) engine.max_thrust = 5.0;
-  return engines;
-}
+using testing::Engines;
+using testing::skewEngines;
 
 EngineState commanded(double thrust, Tick tick = 0) {
   EngineState state;
@@ -40,7 +30,7 @@ EngineState commanded(double thrust, Tick tick = 0) {
 // (33), (34) to (37): what the two matrices give is F_c + F_l + F_p and r_c × F_c + r_l × F_l +
 // r_p × F_p, engine by engine and together.
 TEST(EngineGeometry, MatricesAreTheSumsOverEngines) {
-  const Engines engines = generalEngines();
+  const Engines engines = skewEngines();
   const Vector3 p_HB(0.03, -0.02, 0.01);
   const EngineGeometry geometry(engines, p_HB);
   const Vector3 thrusts(4.0, -1.5, 2.25);
@@ -81,7 +71,7 @@ TEST(EngineGeometry, SteeringEnginesAtTheFrontTurnTheCraft) {
 }
 
 TEST(EngineDynamics, DemandIsHeldWithinTheLimits) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].min_thrust = -1.25;
   const EngineDynamics dynamics(engines, kStepNs);
   const auto demanded = [&](double thrust) {
@@ -96,7 +86,7 @@ TEST(EngineDynamics, DemandIsHeldWithinTheLimits) {
 }
 
 TEST(EngineDynamics, SaturationBeginsBeyondTheLimits) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].min_thrust = -1.25;
   const EngineDynamics dynamics(engines, kStepNs);
   const double infinity = std::numeric_limits<double>::infinity();
@@ -109,7 +99,7 @@ TEST(EngineDynamics, SaturationBeginsBeyondTheLimits) {
 }
 
 TEST(EngineDynamics, WithoutLagThrustIsTheDemandFromTheStartOfTheStepOn) {
-  const EngineDynamics dynamics(generalEngines(), kStepNs);
+  const EngineDynamics dynamics(skewEngines(), kStepNs);
   EngineStates states;
   states[0] = commanded(2.0);
   states[0].thrust = 0.7;
@@ -121,7 +111,7 @@ TEST(EngineDynamics, WithoutLagThrustIsTheDemandFromTheStartOfTheStepOn) {
 
 // T' = (D - T)/τ: T(s) = D + (T0 - D) exp(-s/τ) at s = 0, h/2, h.
 TEST(EngineDynamics, LagIsTheExactSolutionAtEachStage) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].time_constant = 0.03;
   engines[1].time_constant = 0.2;
   const EngineDynamics dynamics(engines, kStepNs);
@@ -147,7 +137,7 @@ TEST(EngineDynamics, LagIsTheExactSolutionAtEachStage) {
 
 // Exact means: as many short steps as one likes, the same curve. 1000 steps of 1 ms, τ = 0.3 s.
 TEST(EngineDynamics, LagDoesNotDependOnTheStepSize) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].time_constant = 0.3;
   const EngineDynamics dynamics(engines, 1000000);
   EngineStates states;
@@ -159,7 +149,7 @@ TEST(EngineDynamics, LagDoesNotDependOnTheStepSize) {
 // The bits of a thrust must not depend on the C library's exp: an engine at 1 N whose demand is 0
 // keeps exp(-h/τ) N.
 TEST(EngineDynamics, DecayIsTheNearestDouble) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].time_constant = 0.01;  // h/τ = 1
   EngineStates states;
   states[0].thrust = 1.0;
@@ -169,7 +159,7 @@ TEST(EngineDynamics, DecayIsTheNearestDouble) {
 }
 
 TEST(EngineDynamics, TimeOutComesAtItsTickAndNotOneEarlier) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].timeout_ns = 500000000;  // 50 ticks
   const EngineDynamics dynamics(engines, kStepNs);
   const EngineState state = commanded(3.0, 7);
@@ -183,7 +173,7 @@ TEST(EngineDynamics, TimeOutComesAtItsTickAndNotOneEarlier) {
 
 // A time-out that is no multiple of the step takes effect at the first tick after it.
 TEST(EngineDynamics, TimeOutBetweenTicksComesAtTheNextOne) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].timeout_ns = 10000001;
   const EngineDynamics dynamics(engines, kStepNs);
   EXPECT_FALSE(dynamics.isTimedOut(kRear, commanded(3.0), 1));
@@ -191,7 +181,7 @@ TEST(EngineDynamics, TimeOutBetweenTicksComesAtTheNextOne) {
 }
 
 TEST(EngineDynamics, ANewCommandReArmsTheTimeOut) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].timeout_ns = 500000000;
   const EngineDynamics dynamics(engines, kStepNs);
   EXPECT_TRUE(dynamics.isTimedOut(kRear, commanded(3.0, 0), 60));
@@ -201,12 +191,12 @@ TEST(EngineDynamics, ANewCommandReArmsTheTimeOut) {
 }
 
 TEST(EngineDynamics, TimeOutOfZeroNeverComes) {
-  const EngineDynamics dynamics(generalEngines(), kStepNs);
+  const EngineDynamics dynamics(skewEngines(), kStepNs);
   EXPECT_FALSE(dynamics.isTimedOut(kRear, commanded(3.0), 1000000000));
 }
 
 TEST(EngineDynamics, AnEngineThatWasNeverCommandedRestsAndHasNoAge) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].timeout_ns = 1;
   const EngineDynamics dynamics(engines, kStepNs);
   const EngineState state;
@@ -217,7 +207,7 @@ TEST(EngineDynamics, AnEngineThatWasNeverCommandedRestsAndHasNoAge) {
 
 // After a time-out a lagging engine runs down with its own time constant; it does not jump.
 TEST(EngineDynamics, ATimedOutEngineRunsDownWithItsLag) {
-  Engines engines = generalEngines();
+  Engines engines = skewEngines();
   engines[0].time_constant = 0.1;
   engines[0].timeout_ns = kStepNs;
   EngineStates states;
@@ -229,7 +219,7 @@ TEST(EngineDynamics, ATimedOutEngineRunsDownWithItsLag) {
 }
 
 TEST(EngineDynamics, AnUncheckedStepSizeIsOurOwnMistake) {
-  EXPECT_THROW(EngineDynamics(generalEngines(), 0), std::logic_error);
+  EXPECT_THROW(EngineDynamics(skewEngines(), 0), std::logic_error);
 }
 
 }  // namespace

@@ -7,26 +7,16 @@
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
+#include "../support/skew_engines.h"
+
 namespace hovercraft {
 namespace {
 
 constexpr double kRounding = 1e-15;
 constexpr double kMass = 2.0;  // kg
 
-using Engines = std::array<EngineParameters, kEngineCount>;
-
-/// A craft whose engines also push up and sideways, off the centre of mass.
-Engines skewEngines() {
-  Engines engines;
-  engines[0].p_HE = {-0.25, 0.02, 0.05};
-  engines[0].direction = {1.0, 0.0, 0.0};
-  engines[1].p_HE = {0.2, 0.15, -0.03};
-  engines[1].direction = {0.0, -0.6, 0.8};
-  engines[2].p_HE = {0.21, -0.16, 0.04};
-  engines[2].direction = {0.48, 0.64, -0.6};
-  for (EngineParameters& engine : engines) engine.max_thrust = 5.0;
-  return engines;
-}
+using testing::Engines;
+using testing::skewEngines;
 
 Mobility generalMobility() {
   Matrix3 inertia;
