@@ -233,7 +233,7 @@ double Island::advance(double now) {
       }
       return to;
     }
-    to = now + time;
+    to = now + (cut < kImpactCuts ? time : std::min(time, 0.5 * duration));
     share *= kCutShare;
   }
   return now;
