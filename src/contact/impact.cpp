@@ -131,9 +131,7 @@ void ImpactSolver::resolve(ContactSolver& solver, std::vector<ImpactPoint>& poin
                            double may_leave) {
   const bool is_plastic = isPlastic(points);
   const bool is_crowd = points.size() >= kCrowd;
-  residual_ = is_plastic                        ? kPlasticResidual
-              : is_crowd && hasFriction(points) ? kCrowdResidual
-                                                : kImpactResidual;
+  residual_ = is_crowd && !is_plastic && hasFriction(points) ? kCrowdResidual : kImpactResidual;
   may_leave_ = is_plastic && is_crowd ? may_leave : 0.0;
   for (int round = 0; round <= kMaxImpactRounds + 1; ++round) {
     if (!isApproaching(solver, points)) return;

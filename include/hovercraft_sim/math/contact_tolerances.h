@@ -27,9 +27,6 @@ constexpr double kStandingPoint = 1e-13;
 /// units in the last place.
 constexpr double kImpactResidual = 1e-15;
 
-/// The same where nothing bounces: the error of the energy is the square of it.
-constexpr double kPlasticResidual = 1e-10;
-
 /// Number of points from which on an impact is a crowd's.
 constexpr std::size_t kCrowd = 40;
 
