@@ -68,7 +68,7 @@ constexpr double kGapRecovery = 0.2;
 constexpr double kStillSpeed = 1e-9;
 
 /// Share (-) of the rest gap that what is left unsolved of a resting contact may take in a step:
-/// the recovery of the gap, a fifth of what is missing in each step, makes up for it. With 0.01
+/// the recovery of the gap, a fifth of what is missing in each step, makes up for it. With 0.1
 /// the heap of 100 boxes takes about the same time.
 constexpr double kRestResidual = 0.03;
 
