@@ -32,6 +32,10 @@ hovercraft::Tick publishPeriod(const hovercraft::ConfigReader& reader, double st
   return whole;
 }
 
+const hovercraft::NumberRule kRealTimeFactorRule = {
+    [](double factor) { return factor >= 0.0 && factor <= NodeConfig::kMaxRealTimeFactor; },
+    "must be 0 (as fast as it can) to 1000"};
+
 const hovercraft::NumberRule kClockRateRule = {
     [](double rate) { return rate > 0.0 && rate <= NodeConfig::kMaxClockRate; },
     "must be greater than 0 and at most 250 Hz"};
@@ -76,7 +80,7 @@ NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node
     reader.fail("world_frame", "must not begin with a slash (tf2)");
   }
   config.real_time_factor =
-      reader.numberOr(config.real_time_factor, "real_time_factor", hovercraft::kNotNegative);
+      reader.numberOr(config.real_time_factor, "real_time_factor", kRealTimeFactorRule);
   config.paused = reader.flagOr(config.paused, "paused");
   config.clock = reader.flagOr(config.clock, "clock");
   config.clock_rate = reader.numberOr(config.clock_rate, "clock_rate", kClockRateRule);

@@ -214,7 +214,7 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
 }
 
 void saveSnapshot(const Simulation& simulation, const std::string& path) {
-  const std::string unfinished = path + ".part";
+  const std::string unfinished = path + ".partial";
   std::ofstream stream(unfinished, std::ios::binary);
   stream << toSnapshot(simulation);
   stream.close();

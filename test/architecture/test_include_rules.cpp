@@ -28,8 +28,6 @@ Names operator+(Names a, const Names& b) {
 }
 
 const std::map<std::string, Rule>& rules() {
-  static const Names core = {"math",      "geometry", "body",  "hovercraft",
-                             "collision", "contact",  "world", "sim"};
   static const Names messages = {"geometry_msgs/",  "nav_msgs/",          "rosgraph_msgs/",
                                  "std_msgs/",       "std_srvs/",          "tf2_msgs/",
                                  "hovercraft_sim/", "visualization_msgs/"};
@@ -43,15 +41,15 @@ const std::map<std::string, Rule>& rules() {
       {"math", {{}, {"Eigen/", "boost/multiprecision/"}}},
       {"geometry", {{"math"}, {"Eigen/", "fmt/", "assimp/", "libqhull_r/"}}},
       {"body", {{"math", "geometry"}, {"Eigen/", "fmt/"}}},
-      {"hovercraft", {{"math", "geometry", "body"}, {"Eigen/", "fmt/"}}},
-      {"collision", {{"math", "geometry"}, {"Eigen/", "fmt/"}}},
-      {"contact", {{"math", "geometry", "body", "collision"}, {"Eigen/", "fmt/"}}},
+      {"hovercraft", {{"math", "geometry", "body"}, {}}},
+      {"collision", {{"math", "geometry"}, {"Eigen/"}}},
+      {"contact", {{"math", "geometry", "body", "collision"}, {"Eigen/"}}},
       {"world",
-       {{"math", "geometry", "body", "hovercraft", "collision", "contact"}, {"Eigen/", "fmt/"}}},
+       {{"math", "geometry", "body", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
       {"sim",
        {{"math", "geometry", "body", "hovercraft", "collision", "contact", "world"},
-        {"Eigen/", "fmt/", "yaml-cpp/", "locale.h"}}},
-      {"ros", {core, of_ros}},
+        {"fmt/", "yaml-cpp/", "locale.h"}}},
+      {"ros", {{"math", "geometry", "body", "hovercraft", "sim"}, of_ros}},
       {"nodes", {{"sim", "ros"}, of_ros}},
       {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };

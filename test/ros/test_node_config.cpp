@@ -103,7 +103,9 @@ TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
             "/sim: world_frame = /map: must not begin with a slash (tf2)");
   EXPECT_EQ(complaintWith("{world_frame: ''}"), "/sim: world_frame: must be a text");
   EXPECT_EQ(complaintWith("{real_time_factor: -1}"),
-            "/sim: real_time_factor = -1: must be 0 or greater");
+            "/sim: real_time_factor = -1: must be 0 (as fast as it can) to 1000");
+  EXPECT_EQ(complaintWith("{real_time_factor: 1001}"),
+            "/sim: real_time_factor = 1001: must be 0 (as fast as it can) to 1000");
   EXPECT_EQ(complaintWith("{paused: 1}"), "/sim: paused = 1: must be true or false");
   EXPECT_EQ(complaintWith("{clock: maybe}"), "/sim: clock = maybe: must be true or false");
   EXPECT_EQ(complaintWith("{clock_rate: 251}"),
