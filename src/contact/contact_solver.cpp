@@ -96,6 +96,8 @@ std::size_t ContactSolver::add(const ContactDemand& asked) {
     point.lambda[i] = point.inverse_mass[i] > 0.0 ? dot(point.directions[i], asked.start) : 0.0;
   }
   point.lambda[0] = std::max(0.0, point.lambda[0]);
+  // No sweep looks along the tangents of these.
+  if (!point.bilateral && !(point.friction > 0.0)) point.lambda[1] = point.lambda[2] = 0.0;
   if (squaredNorm(point.lambda) > 0.0) apply(point, point.lambda);
   points_.push_back(point);
   return points_.size() - 1;

@@ -47,9 +47,10 @@ bool hasFriction(const std::vector<ImpactPoint>& points) {
 
 }  // namespace
 
-/// One simultaneous solve. @param share of each restitution. @returns the energy that it added, J.
-double ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share,
-                             Round kind) {
+/// One simultaneous solve. @param share of each restitution. @returns whether it added energy, by
+/// more than rounding.
+bool ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share,
+                           Round kind) {
   const bool all_plastic = kind != Round::kUsual;
   const bool frictionless = kind == Round::kPlasticWithoutFriction;
   const double scale = scaleOf(solver, points);
@@ -79,13 +80,17 @@ double ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& po
   solver.solve({std::max(kMinImpactSweeps, kMaxImpactRelaxations / std::max(1, count)), 1,
                 std::max(residual_ * scale, kLeftResidual * may_leave_)});
   double gained = 0.0;
+  double rounding = 0.0;
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
-    gained += 0.5 * dot(solver.impulse(k), Vector3(before_[k] + solver.velocityAt(k)));
+    const Vector3 impulse = solver.impulse(k);
+    gained += 0.5 * dot(impulse, Vector3(before_[k] + solver.velocityAt(k)));
+    rounding += kGainRounding * scale * norm(impulse);
   }
-  return gained;
+  return gained > rounding;
 }
 
-void ImpactSolver::take(const ContactSolver& solver, std::vector<ImpactPoint>& points) {
+void ImpactSolver::take(const ContactSolver& solver, std::vector<ImpactPoint>& points,
+                        bool restitutes) {
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
     ImpactPoint& point = points[chosen_[k]];
     const Vector3 impulse = solver.impulse(k);
@@ -94,7 +99,7 @@ void ImpactSolver::take(const ContactSolver& solver, std::vector<ImpactPoint>& p
     const double speed = speeds_[chosen_[k]];
     const double approach = speed > 0.0 ? solver.stoppedSpeed(k) : -speed;
     point.approach = std::max(point.approach, approach);
-    if (dot(impulse, point.nhat_AB_W) > 0.0 && approach > 0.0 &&
+    if (restitutes && dot(impulse, point.nhat_AB_W) > 0.0 && approach > 0.0 &&
         restitutionOf(point, -approach) > 0.0) {
       point.bounced = true;
     }
@@ -108,19 +113,17 @@ void ImpactSolver::roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoi
   twists_.clear();
   for (const ContactBody& body : solver.bodies()) twists_.push_back(body.twist);
   double share = 1.0;
-  for (int attempt = 0; attempt <= kMaxHalvedRestitutions; ++attempt) {
-    const double gained = roundOf(solver, points, share, kind);
-    if (gained <= 0.0 || !can_gain || kind != Round::kUsual || attempt == kMaxHalvedRestitutions)
-      break;
+  for (int halved = 0; roundOf(solver, points, share, kind); ++halved) {
+    if (!can_gain || kind != Round::kUsual || !(share > 0.0)) break;
     for (std::size_t i = 0; i < twists_.size(); ++i) solver.bodies()[i].twist = twists_[i];
-    share = attempt + 2 >= kMaxHalvedRestitutions ? 0.0 : 0.5 * share;
+    share = halved < kMaxHalvedRestitutions ? 0.5 * share : 0.0;
   }
-  take(solver, points);
+  take(solver, points, kind == Round::kUsual && share > 0.0);
 }
 
 bool ImpactSolver::isApproaching(const ContactSolver& solver,
                                  const std::vector<ImpactPoint>& points) const {
-  const double standing = std::max(kStandingPoint, 10.0 * residual_);
+  const double standing = std::max(kStandingPoint, kUnsolvedApproach * residual_);
   const double tolerance = std::max(standing * scaleOf(solver, points), may_leave_);
   return std::any_of(points.begin(), points.end(), [&](const ImpactPoint& point) {
     return dot(point.nhat_AB_W, velocityAt(solver, point)) < -tolerance;

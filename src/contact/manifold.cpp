@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 
 namespace hovercraft {
 namespace {
 
-/// Most corners that a clipped face is followed with: each side of the other face adds one at most,
-/// and corners beyond this many are left to the time of impact.
+/// Most corners that a clipped face is followed with: each side of the other face adds one at most.
 constexpr int kMaxCorners = 64;
 
 struct PlacedBody {
@@ -21,10 +21,26 @@ struct Corners {
   std::array<Vector3, kMaxCorners> points;
   int count = 0;
 
+  /// If there is no room, the corner goes without which the least area is lost.
   void add(const Vector3& p) {
-    if (count < kMaxCorners) points[static_cast<std::size_t>(count++)] = p;
+    if (count == kMaxCorners) dropFlattest();
+    points[static_cast<std::size_t>(count++)] = p;
   }
   const Vector3& operator[](int i) const { return points[static_cast<std::size_t>(i)]; }
+
+ private:
+  void dropFlattest() {
+    int flattest = 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 1; i + 1 < count; ++i) {
+      const Vector3 area = cross((*this)[i] - (*this)[i - 1], (*this)[i + 1] - (*this)[i]);
+      if (squaredNorm(area) >= least) continue;
+      least = squaredNorm(area);
+      flattest = i;
+    }
+    std::copy(points.begin() + flattest + 1, points.begin() + count, points.begin() + flattest);
+    --count;
+  }
 };
 
 std::size_t at(std::int32_t index) {
@@ -132,7 +148,7 @@ bool faceManifold(const PlacedBody& on, int face, const PlacedBody& against,
     const Vector3 inward = times(X_WR.R_AB, side.inward);
     polygon = clipped(polygon, inward, side.offset + dot(inward, X_WR.p_AB));
   }
-  const double same = kSamePoint * (data.radius + other.data().radius);
+  const double same = kSamePoint * std::min(data.radius, other.data().radius);
   std::array<ContactPoint, kMaxCorners> points;
   int count = 0;
   for (int i = 0; i < polygon.count; ++i) {
@@ -211,6 +227,18 @@ bool edgeManifold(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyh
   return true;
 }
 
+/// The closest points become one of the points if all others have notably more of a gap: corners
+/// that were merged, or left out of eight, may have been the nearest.
+void addClosest(const ClosestFeatures& closest, ContactManifold& manifold) {
+  const double enough = closest.distance + kMissedGap * std::abs(closest.distance);
+  for (int i = 0; i < manifold.count; ++i) {
+    if (manifold.points[static_cast<std::size_t>(i)].gap <= enough) return;
+  }
+  manifold.count = std::min(manifold.count + 1, ContactManifold::kMaxPoints);
+  manifold.points[static_cast<std::size_t>(manifold.count - 1)] = {
+      0.5 * (closest.p_WCa + closest.p_WCb), closest.distance};
+}
+
 }  // namespace
 
 ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
@@ -225,10 +253,16 @@ ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
   const int face_B = faceAlong(B, X_WB, -closest.nhat_AB_W, along_B);
   if (along_A >= aligned && along_A >= along_B) {
     manifold.nhat_AB_W = times(X_WA.R_AB, A.face(face_A).normal);
-    if (faceManifold({A, X_WA}, face_A, {B, X_WB}, manifold, band)) return manifold;
+    if (faceManifold({A, X_WA}, face_A, {B, X_WB}, manifold, band)) {
+      addClosest(closest, manifold);
+      return manifold;
+    }
   } else if (along_B >= aligned) {
     manifold.nhat_AB_W = -times(X_WB.R_AB, B.face(face_B).normal);
-    if (faceManifold({B, X_WB}, face_B, {A, X_WA}, manifold, band)) return manifold;
+    if (faceManifold({B, X_WB}, face_B, {A, X_WA}, manifold, band)) {
+      addClosest(closest, manifold);
+      return manifold;
+    }
   } else if (edgeManifold(A, X_WA, B, X_WB, closest, manifold)) {
     return manifold;
   }

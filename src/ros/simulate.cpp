@@ -151,6 +151,12 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
   bar.reset();
 
   reportTimeouts(summary, scenario, messages);
+  if (simulation.world() && simulation.world()->stalls() > 0) {
+    messages << fmt::format(
+        "contact: {} times the rest of a step was cut off, as more happened in it than its bounds "
+        "allow (doc/contact.md)\n",
+        simulation.world()->stalls());
+  }
   messages << fmt::format(
       "simulated {} s in {} ticks, wall time {:.3f} s, {:.0f} x real time, state hash {:016x}\n",
       hovercraft::secondsText(simulation.timeNs()), simulation.tick(), wall.count(),

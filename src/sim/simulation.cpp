@@ -122,7 +122,10 @@ std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vec
   if (!world_) return std::nullopt;
   std::vector<BodyState> states = worldStates();
   states.at(vehicle) = placed(p_WB, q_WB, Twist(), models_[vehicle].mobility);
-  return world_->overlap(states, static_cast<int>(vehicle));
+  const auto index = static_cast<int>(vehicle);
+  if (auto overlap = world_->overlap(states, index)) return overlap;
+  world_->partTouching(states, index);
+  return world_->squeezed(states, index);
 }
 
 std::vector<BodyState> Simulation::worldStates() const {

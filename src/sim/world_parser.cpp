@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -46,8 +47,14 @@ void parseMaterials(const ConfigReader& reader, WorldScenario& world) {
     pair.allowOnly({"first", "second", "restitution", "friction", "stick"});
     pair.text("first");  // must be there
     pair.text("second");
-    world.material_pairs.push_back(
-        {pair.choiceOr(0, "first", names), pair.choiceOr(0, "second", names), parseSurface(pair)});
+    const MaterialPairScenario law = {pair.choiceOr(0, "first", names),
+                                      pair.choiceOr(0, "second", names), parseSurface(pair)};
+    for (const MaterialPairScenario& known : world.material_pairs) {
+      if (std::minmax(known.first, known.second) != std::minmax(law.first, law.second)) continue;
+      pair.fail("",
+                fmt::format("{} and {} have a law already", names[law.first], names[law.second]));
+    }
+    world.material_pairs.push_back(law);
   }
 }
 
@@ -149,19 +156,37 @@ void checkNames(const ConfigReader& reader, const Scenario& scenario) {
   }
 }
 
+void checkTolerance(const ConfigReader& reader, const World& world) {
+  double size = 0.0;
+  for (const WorldBody& body : world.bodies()) size = std::max(size, body.hull.data().radius);
+  for (const WorldObstacle& obstacle : world.obstacles()) {
+    size = std::max(size, obstacle.hull.data().radius);
+  }
+  if (world.rules().tolerance >= kLeastTolerance * size) return;
+  reader.fail("tolerance", fmt::format("must be at least {:.3g} m, {:.0e} of the largest body",
+                                       kLeastTolerance * size, kLeastTolerance));
+}
+
 void checkStart(const ConfigReader& reader, const Scenario& scenario) {
   const World world = worldOf(scenario);
+  checkTolerance(reader, world);
   std::vector<BodyState> states;
   for (const auto* list : {&scenario.vehicles, &scenario.world->bodies}) {
     for (const VehicleScenario& body : *list) {
       states.push_back(initialState(scenario, body, modelOf(scenario, body).mobility));
     }
   }
-  const auto overlap = world.overlap(states);
-  if (!overlap) return;
-  reader.fail("", fmt::format("{} and {} overlap at the start by {:.3g} m: must be at most the "
-                              "tolerance, {:.3g} m",
-                              overlap->a, overlap->b, overlap->depth, scenario.world->tolerance));
+  if (const auto overlap = world.overlap(states)) {
+    reader.fail("", fmt::format("{} and {} overlap at the start by {:.3g} m: must be at most the "
+                                "tolerance, {:.3g} m",
+                                overlap->a, overlap->b, overlap->depth, world.rules().tolerance));
+  }
+  world.partTouching(states);
+  if (const auto squeezed = world.squeezed(states)) {
+    reader.fail("", fmt::format("{} and {} touch at the start and cannot be parted: others are in "
+                                "the way",
+                                squeezed->a, squeezed->b));
+  }
 }
 
 std::string vectorText(const Vector3& v) {

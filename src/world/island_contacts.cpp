@@ -200,7 +200,7 @@ bool Island::addRestPoints(IslandLink& link, double left) {
   const double wanted = kRestGap * rules.tolerance;
   UsedPoints used{};
   const Pose& X_WA = poseOfIndex(link.memory.a);
-  const double near = 0.05 * world_.hullOf(link.memory.a).data().radius;
+  const double near = kKnownPoint * world_.hullOf(link.memory.a).data().radius;
   for (int i = 0; i < link.manifold.count; ++i) {
     const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
     const Vector3 v = velocityNow(link.slot_b, contact.p_WC, world_, s_.members) -
@@ -215,9 +215,12 @@ bool Island::addRestPoints(IslandLink& link, double left) {
     asked.p_WC = contact.p_WC;
     const double missing = wanted - contact.gap;
     // One linear law for all points that touch: else the four of a face would ask for what no
-    // motion of two rigid bodies can give, and the sweeps would creep.
+    // motion of two rigid bodies can give, and the sweeps would creep. A pair that does not rest
+    // yet is not pushed apart: if nothing presses it, it would fly on with that speed.
+    const double recovery = kGapRecovery * missing / rules.step;
     asked.target = contact.gap > rules.tolerance ? (rules.tolerance - contact.gap) / left
-                                                 : kGapRecovery * missing / rules.step;
+                   : link.memory.resting         ? recovery
+                                                 : std::min(0.0, recovery);
     asked.friction =
         link.material.stick ? std::numeric_limits<double>::infinity() : link.material.friction;
     asked.start = left * rememberedForce(link.memory, X_WA, contact.p_WC, near, used);
@@ -259,6 +262,7 @@ void Island::takeForces(double now, double left) {
     memory.count = 0;
     ContactRecord record;
     double weight = 0.0;
+    double stopped = 0.0;  // m/s
     for (std::size_t k = link.first_point;
          k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
       const Vector3 impulse = s_.solver.impulse(k);
@@ -273,8 +277,9 @@ void Island::takeForces(double now, double left) {
       record.impulse_B_W += impulse;
       record.p_WC += size * p_WC;
       weight += size;
+      stopped = std::max(stopped, s_.solver.stoppedSpeed(k));
     }
-    if (weight == 0.0 || memory.resting) continue;
+    if (memory.resting || !(stopped > kStillSpeed)) continue;
     memory.resting = true;
     record.kind = ContactKind::kRest;
     record.a = memory.a;

@@ -107,12 +107,17 @@ AxisAlignedBox World::boxOf(std::size_t body, const Pose& pose, double margin) c
   return {center - half, center + half};
 }
 
+/// How far from its centre of mass a body can be near something in this step, m.
+double World::reachOf(std::size_t body) const {
+  return extents_[body].radius + extents_[body].travel + rules_.tolerance;
+}
+
 /// The boxes within which the list of neighbours stays complete. A body that is far from all others
 /// gets half of the way to the nearest.
 void World::makeRoom(const std::vector<BodyState>& states) {
   const std::size_t count = bodies_.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const double reach = extents_[i].radius + extents_[i].travel;
+    const double reach = reachOf(i);
     const Vector3& p = positionOf(states[i]);
     extents_[i].roomy = {p - Vector3::Constant(reach), p + Vector3::Constant(reach)};
   }
@@ -139,7 +144,7 @@ bool World::findNeighbours(const std::vector<BodyState>& states) {
   const std::size_t count = bodies_.size();
   bool inside = knows_neighbours_;
   for (std::size_t i = 0; i < count && inside; ++i) {
-    const double reach = extents_[i].radius + extents_[i].travel;
+    const double reach = reachOf(i);
     const Vector3& p = positionOf(states[i]);
     const Vector3 around = Vector3::Constant(reach);
     inside = holds(extents_[i].roomy, {p - around, p + around});
@@ -233,7 +238,7 @@ bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<B
     if (group_[first] != group || !listGroup(group)) continue;
     Island island(*this, drives, scratch_, records);
     island.begin(group_bodies_, group_pairs_, states, memory);
-    if (!island.run()) ++stalls_;
+    if (!island.run()) ++cut_off_;
     enough = takeIsland() && enough;
   }
   return enough;
@@ -259,9 +264,10 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
     findNearPairs(states);
     next_memory_.clear();
     records.resize(recorded);
+    cut_off_ = 0;
     done = near_.empty() || stepGroups(drives, states, memory, records);
   }
-  if (!done) ++stalls_;
+  stalls_ += cut_off_ + (done ? 0 : 1);
   std::sort(next_memory_.begin(), next_memory_.end(),
             [](const ContactMemory& x, const ContactMemory& y) {
               return x.a < y.a || (x.a == y.a && x.b < y.b);
@@ -288,14 +294,24 @@ double World::leastGap(const std::vector<BodyState>& states) const {
   return least;
 }
 
-std::optional<WorldOverlap> World::overlap(const std::vector<BodyState>& states, int body) const {
+/// @param allowed m, depth that is none.
+std::optional<WorldOverlap> World::deepest(const std::vector<BodyState>& states, int body,
+                                           double allowed) const {
   std::optional<WorldOverlap> worst;
   for (const Pair& pair : allPairs(body)) {
     const double depth = -closestOf(states, pair).distance;
-    if (depth <= rules_.tolerance || (worst && depth <= worst->depth)) continue;
+    if (depth <= allowed || (worst && depth <= worst->depth)) continue;
     worst = WorldOverlap{nameOf(pair.first), nameOf(pair.second), depth};
   }
   return worst;
+}
+
+std::optional<WorldOverlap> World::overlap(const std::vector<BodyState>& states, int body) const {
+  return deepest(states, body, rules_.tolerance);
+}
+
+std::optional<WorldOverlap> World::squeezed(const std::vector<BodyState>& states, int body) const {
+  return deepest(states, body, -kLeastRestGap * rules_.tolerance);
 }
 
 ClosestFeatures World::closestOf(const std::vector<BodyState>& states, const Pair& pair) const {

@@ -199,7 +199,7 @@ TEST(IncludeRules, YamlIsReadInSimAndAboveOnly) {
 
 TEST(IncludeRules, WhatIsAllowedPassesHoweverItIsWritten) {
   EXPECT_TRUE(violationsOf("sim",
-                           "#pragma once\n#include <vector>\n  #  include  <Eigen/Core>\n"
+                           "#pragma once\n#include <vector>\n  #  include  <fmt/format.h>\n"
                            "#include \"hovercraft_sim/sim/run.h\"  // why\n"
                            "#include \"hovercraft_sim/math/vector.h\"\n")
                   .empty());

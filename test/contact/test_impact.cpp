@@ -136,6 +136,56 @@ TEST(Impact, ElasticBounceWithoutFrictionKeepsTheEnergy) {
   }
 }
 
+// Rounding must not count as a gain of energy: the restitution would be halved.
+TEST(Impact, AnElasticHitThatDoesNotSlipKeepsItsSpeed) {
+  std::mt19937 random(21);
+  std::uniform_real_distribution<double> uniform(0.1, 5.0);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double speed = uniform(random);
+    const Masses ball{uniform(random), Matrix3::Identity() * uniform(random)};
+    ContactSolver solver;
+    solver.add(fixedBody());
+    solver.add(bodyOf(ball, Vector3(0.1, 0.2, 0.3), {Vector3(0.0, 0.0, -speed), Vector3::Zero()}));
+    std::vector<ImpactPoint> points = {
+        pointOf(Vector3(0.0, 0.0, 1.0), Vector3(0.1, 0.2, 0.0), 1.0, 0.5)};
+    ImpactSolver().resolve(solver, points);
+    ASSERT_NEAR(solver.bodies()[1].twist.v_WB.z(), speed, 1e-14 * speed) << "seed 21, " << trial;
+  }
+}
+
+TEST(Impact, ManyPointsLoseWhatNewtonsLawSays) {
+  std::mt19937 random(22);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double e = 0.1 * (1 + trial % 10);
+    Masses box{3.0, boxMassProperties(3.0, Vector3(1.0, 0.5, 0.25)).I_BBo_B};
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const Twist twist = {Vector3(uniform(random), uniform(random), -4.0),
+                         Vector3(uniform(random), uniform(random), uniform(random))};
+    ContactSolver solver;
+    solver.add(fixedBody());
+    solver.add(bodyOf(box, Vector3(0.0, 0.0, 0.125), twist));
+    std::vector<ImpactPoint> points;
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.25, 0.25}) {
+        points.push_back(pointOf(Vector3(0.0, 0.0, 1.0), Vector3(x, y, 0.0), e, 0.0));
+      }
+    }
+    ContactSolver start = solver;
+    ImpactSolver().resolve(solver, points);
+    double lost = 0.0;  // the sum of (1 - e) lambda_n |v_n| / 2, of one round
+    bool one_round = true;
+    for (const ImpactPoint& point : points) {
+      const double approach = normalSpeedOf(start, point);
+      const double pushed = dot(point.impulse, point.nhat_AB_W);
+      one_round = one_round && approach < 0.0 && normalSpeedOf(solver, point) > -1e-12;
+      lost += 0.5 * (1.0 - e) * pushed * -approach;
+    }
+    ASSERT_TRUE(one_round) << "seed 22, trial " << trial;
+    EXPECT_NEAR(energyOf(box, twist) - energyOf(box, solver.bodies()[1].twist), lost, 1e-12)
+        << "seed 22, trial " << trial;
+  }
+}
+
 TEST(Impact, MomentumAndAngularMomentumOfAFreePairStay) {
   std::mt19937 random(12);
   for (int trial = 0; trial < 400; ++trial) {

@@ -118,6 +118,64 @@ TEST(Manifold, OfManyCornersTheFarthestInEightDirectionsStay) {
   EXPECT_NEAR(sum.y(), 0.0, 0.1);
 }
 
+/// Each direction of the plane has a point at the rim, not farther from it than 25 degrees.
+void expectSupportAllAround(const ContactManifold& manifold, double radius) {
+  for (int degree = 0; degree < 360; ++degree) {
+    const double angle = degree * 3.14159265358979323846 / 180.0;
+    double farthest = -radius;
+    for (int i = 0; i < manifold.count; ++i) {
+      const Vector3& p = manifold.points[static_cast<std::size_t>(i)].p_WC;
+      farthest = std::max(farthest, std::cos(angle) * p.x() + std::sin(angle) * p.y());
+    }
+    EXPECT_GT(farthest, 0.9 * radius) << degree << " degrees";
+  }
+}
+
+TEST(Manifold, ARoundFaceOfManyCornersIsHeldAllAround) {
+  for (const int sides : {64, 80, 100, 128, 300}) {
+    SCOPED_TRACE(sides);
+    const ConvexPolyhedron can = cylinderPolyhedron(0.3, 0.4, sides);
+    const Pose above = poseOf(Vector3::Zero(), Vector3(0.0, 0.0, 0.7 + kGap));
+    expectSupportAllAround(manifoldOf(floorBox(), Pose(), can, above), 0.3);
+    const Pose below = poseOf(Vector3::Zero(), Vector3(0.0, 0.0, -0.7 - kGap));
+    expectSupportAllAround(manifoldOf(can, below, floorBox(), Pose()), 0.3);
+    // Both round: the common area is clipped by each side.
+    const Pose on_top = poseOf(Vector3::Zero(), Vector3(0.0, 0.0, 0.4 + kGap));
+    expectSupportAllAround(manifoldOf(can, Pose(), can, on_top), 0.3);
+  }
+}
+
+TEST(Manifold, TheSizeOfTheGroundDoesNotMergeTheCornersOfASmallBody) {
+  const ConvexPolyhedron ground = boxPolyhedron(Vector3(600.0, 600.0, 1.0));
+  const ConvexPolyhedron box = boxPolyhedron(Vector3::Constant(0.05));
+  const Pose X_WB = poseOf(Vector3(0.0, 0.0, 0.2), Vector3(3.0, 4.0, 0.525 + kGap));
+  EXPECT_EQ(manifoldOf(ground, Pose(), box, X_WB).count, 4);
+  EXPECT_EQ(manifoldOf(box, X_WB, ground, Pose()).count, 4);
+}
+
+// A can that leans by so little that many corners are near the floor: the lowest is the one that
+// hits, wherever the eight farthest lie.
+TEST(Manifold, TheClosestPointsAreAmongThePoints) {
+  const ConvexPolyhedron can = cylinderPolyhedron(0.3, 0.4, 128);
+  for (int k = 0; k < 48; ++k) {
+    const double towards = k * 2.0 * 3.14159265358979323846 / 48.0;
+    const double lean = 3e-6;  // rad
+    Pose X_WB =
+        poseOf(Vector3(lean * std::cos(towards), lean * std::sin(towards), 0.0), Vector3::Zero());
+    double lowest = 0.0;
+    for (int i = 0; i < can.vertexCount(); ++i) {
+      lowest = std::min(lowest, transform(X_WB, can.vertex(i)).z());
+    }
+    X_WB.p_AB.z() = 0.5 - lowest + kGap;
+    const ContactManifold manifold = manifoldOf(floorBox(), Pose(), can, X_WB);
+    double least = 1.0;
+    for (int i = 0; i < manifold.count; ++i) {
+      least = std::min(least, manifold.points[static_cast<std::size_t>(i)].gap);
+    }
+    EXPECT_LT(least, 1.3 * kGap) << "leans towards " << k << " of 48";
+  }
+}
+
 TEST(Manifold, CornersBeyondTheBandAreLeftOut) {
   const ConvexPolyhedron box = boxPolyhedron(Vector3(0.4, 0.2, 0.2));
   const double tilt = 1e-5;  // rad: the far edge is 4 µm higher

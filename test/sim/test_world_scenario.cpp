@@ -62,11 +62,37 @@ TEST(WorldScenario, TheOrderInWhichBodiesAreNamedDoesNotMatter) {
       text.substr(0, crate) + text.substr(drum) + text.substr(crate, drum - crate);
   Simulation a(parsed(text));
   Simulation b(parsed(swapped));
+  int contacts = 0;
+  a.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
   for (int i = 0; i < 300; ++i) {
     a.step();
     b.step();
   }
+  EXPECT_GT(contacts, 0);
   EXPECT_EQ(a.hash(), b.hash());
+}
+
+/// The fastest along x that the crate gets when the craft hits it.
+double speedOfTheCrate(const std::string& text) {
+  Simulation simulation(parsed(text));
+  double fastest = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    simulation.step();
+    fastest = std::max(fastest, simulation.bodyMotion(0).twist.v_WB.x());
+  }
+  return fastest;
+}
+
+TEST(WorldScenario, APairOfMaterialsHasItsOwnLaw) {
+  const std::string icy =
+      with(worldText(), "mass: 1}], material: wood}", "mass: 1}], material: ice}");
+  const std::string other =
+      with(icy, "    - {first: wood, second: ice, restitution: 0.75, friction: 0.125}",
+           "    - {first: wood, second: wood, restitution: 0.125}");
+  // 0.75 is theirs; else it is the lesser of 0.5 and 0.9. A crate that is hit gets 1 + e.
+  EXPECT_NEAR(speedOfTheCrate(icy) / speedOfTheCrate(other), 1.75 / 1.5, 1e-3);
+  const std::string reversed = with(icy, "first: wood, second: ice", "first: ice, second: wood");
+  EXPECT_EQ(speedOfTheCrate(reversed), speedOfTheCrate(icy));
 }
 
 TEST(WorldScenario, AMeshIsWrittenByItsCorners) {
@@ -95,6 +121,25 @@ TEST(WorldScenario, WhatIsWrongIsSaidOnOneLine) {
   EXPECT_NE(complaintAbout(with(text, "    hull: {box: {size: [0.4, 0.4, 0.2]}}\n", ""))
                 .find("vehicles.craft.hull: is missing"),
             std::string::npos);
+  EXPECT_EQ(complaintAbout(with(text, "tolerance: 2e-6", "tolerance: 1e-12")),
+            "test.yaml: world.tolerance = 1e-12: must be at least 2.06e-11 m, 1e-11 of the largest "
+            "body");
+  EXPECT_EQ(
+      complaintAbout(with(
+          text, "  obstacles:", "    - {first: ice, second: wood, friction: 0.5}\n  obstacles:")),
+      "test.yaml: world.material_pairs[1] = {first: ice, second: wood, friction: 0.5}: ice and "
+      "wood have a law already");
+  // A crate that fits between two walls to the last bit, and one that leaves no gap for it.
+  const std::string block = "    block: {box: {size: [0.7, 1, 1]}, position: [-0.5, 3, 0]}\n";
+  const std::string wedged = with(
+      with(text, "  bodies:",
+           block + "    other: {box: {size: [1, 1, 1]}, position: [0.65, 3, "
+                   "0]}\n  bodies:"),
+      "mass: 1}], material: wood}", "mass: 1}], material: wood, initial: {position: [0, 3, 0]}}");
+  EXPECT_NE(complaintAbout(wedged).find("touch at the start and cannot be parted: others are in "
+                                        "the way"),
+            std::string::npos)
+      << complaintAbout(wedged);
   EXPECT_NE(complaintAbout(text.substr(0, text.find("world:"))).find("needs a world"),
             std::string::npos);
 }
@@ -137,7 +182,7 @@ TEST(WorldScenario, APlaceInsideAnotherBodyIsKnownBeforeItIsTaken) {
       simulation.overlapAt(0, Vector3(-2.0, 0.0, 0.0), Quaternion::identity()).has_value());
 }
 
-TEST(WorldScenario, BitsDoNotDependOnTheOrientationOfOthersThatAreFar) {
+TEST(WorldScenario, BitsDoNotDependOnObstaclesThatAreFar) {
   const std::string alone = "step_size: 0.01\nmodel: planar\nvehicles:\n" + craftYaml("craft");
   const std::string beside =
       alone +

@@ -42,10 +42,10 @@ class ImpactSolver {
  private:
   enum class Round { kUsual, kPlastic, kPlasticWithoutFriction };
 
-  double roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share, Round kind);
+  bool roundOf(ContactSolver& solver, std::vector<ImpactPoint>& points, double share, Round kind);
   void roundWithoutGain(ContactSolver& solver, std::vector<ImpactPoint>& points, Round kind);
   bool isApproaching(const ContactSolver& solver, const std::vector<ImpactPoint>& points) const;
-  void take(const ContactSolver& solver, std::vector<ImpactPoint>& points);
+  void take(const ContactSolver& solver, std::vector<ImpactPoint>& points, bool restitutes);
 
   double residual_ = 0.0;            // (-) of the fastest point
   double may_leave_ = 0.0;           // m/s

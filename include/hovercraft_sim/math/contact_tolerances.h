@@ -15,9 +15,17 @@ constexpr double kFaceAlignment = 1e-3;
 /// hides 0.1 mm.
 constexpr double kFlatCorner = 1e-3;
 
-/// Distance (-, of the size of the bodies) up to which two points of contact are one: sides that
-/// coincide but for a small angle are cut twice near each corner.
-constexpr double kSamePoint = 1e-3;
+/// Distance (-, of the size of the smaller body) up to which two points of contact are one: sides
+/// that coincide but for a small angle are cut twice near each corner.
+constexpr double kSamePoint = 2e-3;
+
+/// What the least gap of the points of a face may have more (-) than the closest points; beyond it
+/// they are one of the points too: it is where the bodies hit.
+constexpr double kMissedGap = 0.25;
+
+/// Distance (-, of the size of the first body) up to which a point of contact is one of the last
+/// step's.
+constexpr double kKnownPoint = 0.05;
 
 /// Speed (-, of the fastest point) below which a point of contact stands still: what the rounding
 /// of an impact leaves, a thousand units in the last place.
@@ -26,6 +34,13 @@ constexpr double kStandingPoint = 1e-13;
 /// Change of a velocity (-, of the fastest point) in one sweep at which an impact is solved: a few
 /// units in the last place.
 constexpr double kImpactResidual = 1e-15;
+
+/// Approach (-, of the residual) up to which an impact that was solved to it counts as over.
+constexpr double kUnsolvedApproach = 10.0;
+
+/// Energy (-, of the impulses times the fastest point's speed) up to which what a round adds is
+/// rounding: a hit that does not slip adds nothing, and so a unit in the last place.
+constexpr double kGainRounding = 1e-12;
 
 /// Number of points from which on an impact is a crowd's.
 constexpr std::size_t kCrowd = 40;
@@ -64,7 +79,8 @@ constexpr double kLostContact = 10.0;
 /// steps that follow, so that the push is no bounce.
 constexpr double kGapRecovery = 0.2;
 
-/// Speed (m/s) up to which the approach of an elastic pair is rounding and no bounce.
+/// Speed (m/s) up to which the approach of an elastic pair is rounding and no bounce, and what a
+/// resting contact stops in a step is no load.
 constexpr double kStillSpeed = 1e-9;
 
 /// Share (-) of the rest gap that what is left unsolved of a resting contact may take in a step:
@@ -90,6 +106,10 @@ constexpr int kMinRestSweeps = 30;
 /// Gap (-, of the contact tolerance) below which a resting contact is repaired: as long as there is
 /// more, the solver brings it back by itself.
 constexpr double kLeastRestGap = 0.1;
+
+/// Least tolerance (-, of the size of the largest body): a tenth of it is a gap (kLeastRestGap),
+/// which must be a number of roundings.
+constexpr double kLeastTolerance = 1e-11;
 
 /// Gap (-, of the contact tolerance) up to which a repair moves a pair.
 constexpr double kFairRestGap = 0.4;

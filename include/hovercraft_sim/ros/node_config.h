@@ -22,7 +22,8 @@ struct NodeConfig {
   double lockstep_timeout = 5.0;        // s of wall time until a silent vehicle is named
   double diagnostic_period = 1.0;       // s of wall time between two reports
 
-  static constexpr double kMaxRealTimeFactor = 1000.0;  // that of dynamic_reconfigure (cfg/Pace.cfg)
+  static constexpr double kMaxRealTimeFactor =
+      1000.0;  // that of dynamic_reconfigure (cfg/Pace.cfg)
   static constexpr double kMaxClockRate =
       250.0;  // Hz: each message costs every Python node some CPU
 };

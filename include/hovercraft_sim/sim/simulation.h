@@ -94,7 +94,8 @@ class Simulation {
   void setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                  const Twist& twist);
 
-  /// The body that a craft would overlap there by more than the tolerance; none without a world.
+  /// The body that a craft would overlap there by more than the tolerance, or be squeezed against
+  /// so that no gap can be made; none without a world.
   std::optional<WorldOverlap> overlapAt(std::size_t vehicle, const Vector3& p_WB,
                                         const Quaternion& q_WB) const;
 

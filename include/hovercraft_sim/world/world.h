@@ -32,6 +32,10 @@ class World {
   /// all.
   std::optional<WorldOverlap> overlap(const std::vector<BodyState>& states, int body = -1) const;
 
+  /// Two bodies without the least gap that a step can start from, if there are some: those that
+  /// partTouching() could not part. @param body only its pairs; -1: all.
+  std::optional<WorldOverlap> squeezed(const std::vector<BodyState>& states, int body = -1) const;
+
   /// The least distance of any two bodies (negative: depth), m; for tests and reports.
   double leastGap(const std::vector<BodyState>& states) const;
 
@@ -63,6 +67,7 @@ class World {
     AxisAlignedBox roomy;     // its neighbours are known as long as it stays inside
   };
 
+  double reachOf(std::size_t body) const;
   double travelOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
   void makeRoom(const std::vector<BodyState>& states);
   bool findNeighbours(const std::vector<BodyState>& states);
@@ -71,6 +76,8 @@ class World {
   bool listGroup(std::int32_t group);
   bool takeIsland();
   ClosestFeatures closestOf(const std::vector<BodyState>& states, const Pair& pair) const;
+  std::optional<WorldOverlap> deepest(const std::vector<BodyState>& states, int body,
+                                      double allowed) const;
   /// The displacements, m, that take the two bodies `by` metres apart along nhat_AB_W, each in
   /// proportion to its mobility. @param only the one body that may move; -1: both. @returns nothing
   /// if neither can move that way.
@@ -103,6 +110,7 @@ class World {
   std::vector<AxisAlignedBox> boxes_;
   IslandScratch scratch_;
   std::int64_t stalls_ = 0;
+  std::int64_t cut_off_ = 0;  // islands of this step that their bound cut off
 };
 
 }  // namespace hovercraft
