@@ -12,6 +12,7 @@
 #include "hovercraft_sim/ros/bag_writer.h"
 #include "hovercraft_sim/ros/run_events.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
@@ -273,6 +274,7 @@ ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scen
 }
 
 int replayBag(const ReplayRequest& request, std::string& verdict) {
+  hovercraft::checkOutputs({{"--output", request.output}}, {request.bag});
   const Recording recording = readRecording(request.bag);
   YAML::Node tree = YAML::Load(recording.scenario_text);
   for (const std::string& assignment : request.sets) setKey(tree, assignment);
