@@ -47,10 +47,15 @@ class Run:
 
     @staticmethod
     def _only_vehicle(path, topics):
-        found = sorted(name[1:-len('/pose')] for name, info in topics.items()
-                       if name.endswith('/pose') and info.msg_type == 'geometry_msgs/PoseStamped')
+        """The one that has pose and twist: a loose body has a pose alone."""
+        def with_topic(name, kind):
+            return {topic[1:-len(name)] for topic, info in topics.items()
+                    if topic.endswith(name) and info.msg_type == kind}
+        found = sorted(with_topic('/pose', 'geometry_msgs/PoseStamped') &
+                       with_topic('/twist', 'geometry_msgs/TwistStamped'))
         if len(found) != 1:
-            raise ValueError(f"{path}: vehicles with a pose: {', '.join(found) or 'none'}; choose one with --vehicle")
+            raise ValueError(f"{path}: vehicles with pose and twist: {', '.join(found) or 'none'}" +
+                             ('; choose one with --vehicle' if found else ''))
         return found[0]
 
     @staticmethod

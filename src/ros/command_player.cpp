@@ -16,6 +16,19 @@ constexpr std::uint32_t kQueue = 100;
 
 }  // namespace
 
+hovercraft::Tick PlayedTime::hear(const hovercraft_sim::State& state) {
+  is_new_run_ = !last_ || state.episode != last_->episode || state.tick < last_->tick;
+  if (last_ && !is_new_run_) {
+    played_ += static_cast<hovercraft::Tick>(state.tick - last_->tick);
+  } else if (last_ && state.episode > last_->episode) {
+    // Ticks count anew, or from those of a snapshot; stamps go on.
+    const std::int64_t passed_ns = (state.header.stamp - last_->header.stamp).toNSec();
+    played_ += std::max<std::int64_t>(0, passed_ns) / step_ns_;
+  }
+  last_ = state;
+  return played_;
+}
+
 CommandPlayer::CommandPlayer(const ros::NodeHandle& handle, const hovercraft::Scenario& scenario,
                              std::unique_ptr<hovercraft::CommandSource> source,
                              std::int64_t settle_ns, std::uint32_t wanted_subscribers)
@@ -25,7 +38,8 @@ CommandPlayer::CommandPlayer(const ros::NodeHandle& handle, const hovercraft::Sc
       repeat_ticks_(std::max<hovercraft::Tick>(1, kRepeatNs / scenario.step_ns)),
       wanted_subscribers_(wanted_subscribers),
       thrusts_(scenario.vehicles.size(), hovercraft::Vector3::Zero()),
-      commanded_(scenario.vehicles.size(), false) {
+      commanded_(scenario.vehicles.size(), false),
+      time_(scenario.step_ns) {
   for (const hovercraft::VehicleScenario& craft : scenario.vehicles) {
     ros::NodeHandle own(handle, craft.name);
     publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kQueue));
@@ -43,19 +57,16 @@ bool CommandPlayer::allConnected() const {
 }
 
 void CommandPlayer::onState(const hovercraft_sim::State& state) {
-  const auto now = static_cast<hovercraft::Tick>(state.tick);
-  if (!start_) {
-    if (!allConnected()) return;
-    start_ = now;
-    last_sent_ = now;
-  }
+  has_begun_ = has_begun_ || allConnected();
+  if (!has_begun_) return;
+  const hovercraft::Tick now = time_.hear(state);
   const hovercraft::Tick before = last_command_;
-  takeDue(now - *start_);
-  if (last_command_ != before || now - last_sent_ >= repeat_ticks_ || now == *start_) {
+  takeDue(now);
+  if (last_command_ != before || now - last_sent_ >= repeat_ticks_ || time_.isNewRun()) {
     send(state.header.stamp);
     last_sent_ = now;
   }
-  done_ = !next_ && now - *start_ >= last_command_ + settle_ticks_;
+  done_ = !next_ && now >= last_command_ + settle_ticks_;
 }
 
 void CommandPlayer::takeDue(hovercraft::Tick tick) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 
 #include "hovercraft_sim/ros/bag_file.h"
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/recorded_messages.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
 namespace hovercraft_ros {
@@ -105,13 +105,7 @@ class VehicleStream {
   }
 
   Command appliedOf(const rosbag::MessageInstance& instance) {
-    const auto message = messageAs<hovercraft_sim::AppliedCommand>(path_, instance);
-    if (message->tick > static_cast<std::uint64_t>(std::numeric_limits<Tick>::max())) {
-      failAt(path_, instance, fmt::format("tick = {}: must fit 63 bits", message->tick));
-    }
-    if (message->engines == 0 || message->engines > hovercraft::kAllEngines) {
-      failAt(path_, instance, fmt::format("engines = {}: must be 1 to 7", message->engines));
-    }
+    const auto message = readAppliedCommand(path_, instance);
     if (first_episode_.value_or(message->episode) != message->episode) {
       failAt(path_, instance,
              fmt::format("episode {}: must be episode {} as before; a bag with a reset is for the "
@@ -119,9 +113,7 @@ class VehicleStream {
                          message->episode, *first_episode_));
     }
     first_episode_ = message->episode;
-    Command command = toCommand(*message, topics_.vehicle);
-    if (!command.thrusts.allFinite()) failAt(path_, instance, "a thrust must be finite");
-    return command;
+    return toCommand(*message, topics_.vehicle);
   }
 
   std::string path_;
@@ -190,16 +182,13 @@ class BagCommandSource::Streams {
 };
 
 BagCommandSource::BagCommandSource(const std::string& path, const hovercraft::Scenario& scenario)
-    : path_(path), streams_(std::make_unique<Streams>(path, scenario)) {}
+    : path_(path),
+      streams_(readingBag(path, [&] { return std::make_unique<Streams>(path, scenario); })) {}
 
 BagCommandSource::~BagCommandSource() = default;
 
 std::optional<Command> BagCommandSource::next() {
-  try {
-    return streams_->next();
-  } catch (const rosbag::BagException& error) {
-    throw std::invalid_argument(fmt::format("{}: cannot be read: {}", path_, error.what()));
-  }
+  return readingBag(path_, [this] { return streams_->next(); });
 }
 
 const std::string& BagCommandSource::description() const {

@@ -1,7 +1,5 @@
 #include "hovercraft_sim/ros/markers_node.h"
 
-#include <cmath>
-#include <cstddef>
 #include <exception>
 #include <visualization_msgs/MarkerArray.h>
 #include <yaml-cpp/yaml.h>
@@ -15,9 +13,7 @@
 namespace hovercraft_ros {
 namespace {
 
-constexpr double kRefreshPeriod = 0.05;      // s of wall time
-constexpr double kPathSpacing = 0.02;        // m between two points of the path
-constexpr std::size_t kLongestPath = 10000;  // points; older ones are forgotten
+constexpr double kRefreshPeriod = 0.05;  // s of wall time
 constexpr std::uint32_t kQueue = 10;
 
 void append(visualization_msgs::MarkerArray& array,
@@ -56,26 +52,20 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
   craft->description = description;
   ros::NodeHandle own(handle_, description.name);
   const boost::function<void(const geometry_msgs::PoseStamped&)> on_pose =
-      [craft](const geometry_msgs::PoseStamped& pose) { extendPath(*craft, pose); };
+      [craft](const geometry_msgs::PoseStamped& pose) {
+        craft->world_frame = pose.header.frame_id;
+        craft->path.extend(pose.pose.position, pose.header.stamp);
+      };
+  const boost::function<void(const hovercraft_sim::State&)> on_state =
+      [craft](const hovercraft_sim::State& state) {
+        craft->path.enter(state.episode, state.header.stamp);
+      };
   const boost::function<void(const hovercraft_sim::EngineStatus&)> on_engines =
       [craft](const hovercraft_sim::EngineStatus& engines) { craft->engines = engines; };
   craft->subscribers = {
       own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kQueue, on_pose),
+      own.subscribe<hovercraft_sim::State>(kStateTopic, kQueue, on_state),
       own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kQueue, on_engines)};
-}
-
-void MarkersNode::extendPath(Craft& craft, const geometry_msgs::PoseStamped& pose) {
-  craft.world_frame = pose.header.frame_id;
-  const geometry_msgs::Point& here = pose.pose.position;
-  if (!craft.path.empty()) {
-    const geometry_msgs::Point& last = craft.path.back();
-    if (std::hypot(here.x - last.x, here.y - last.y, here.z - last.z) < kPathSpacing) return;
-  }
-  if (craft.path.size() == kLongestPath) {
-    craft.path.erase(craft.path.begin(),
-                     craft.path.begin() + static_cast<std::ptrdiff_t>(kLongestPath / 2));
-  }
-  craft.path.push_back(here);
 }
 
 /// What has the same marker at all times: obstacles, and the hulls of loose bodies, which tf moves.
@@ -95,7 +85,8 @@ void MarkersNode::publish() {
     if (still_.empty()) makeStill(craft->world_frame);
     append(array, craftMarkers(craft->description));
     append(array, thrustMarkers(craft->description, craft->engines));
-    array.markers.push_back(pathMarker(craft->description, craft->world_frame, craft->path));
+    array.markers.push_back(
+        pathMarker(craft->description, craft->world_frame, craft->path.points()));
   }
   append(array, still_);
   if (!array.markers.empty()) publisher_.publish(array);

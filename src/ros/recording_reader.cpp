@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
-#include <yaml-cpp/yaml.h>
 
 #include <hovercraft_sim/AppliedCommand.h>
 #include <rosbag/view.h>
@@ -14,6 +14,7 @@
 
 #include "hovercraft_sim/ros/bag_file.h"
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/recorded_messages.h"
 #include "hovercraft_sim/ros/run_events.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -85,7 +86,10 @@ std::string vehicleOfTopic(const std::string& topic) {
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path) { openForReading(bag_, path); }
+  explicit Reader(const std::string& path) : path_(path) {
+    openForReading(bag_, path);
+    recording_.source = path;
+  }
 
   Recording read() {
     readScenario();
@@ -93,9 +97,10 @@ class Reader {
                                 "hovercraft_sim/AppliedCommand", "hovercraft_sim/RunEvent",
                                 "hovercraft_sim/State"}));
     for (const rosbag::MessageInstance& instance : view) {
-      if (instance.isType<State>()) {
+      const std::string& type = instance.getDataType();
+      if (type == ros::message_traits::DataType<State>::value()) {
         readState(instance);
-      } else if (instance.isType<AppliedCommand>()) {
+      } else if (type == ros::message_traits::DataType<AppliedCommand>::value()) {
         readCommand(instance);
       } else {
         readEvent(instance);
@@ -120,8 +125,9 @@ class Reader {
         continue;
       }
       recording_.scenario_text = messageAs<std_msgs::String>(path_, instance)->data;
-      recording_.scenario = hovercraft::parseScenario(YAML::Load(recording_.scenario_text),
-                                                      {path_ + ": " + topic, "", {}});
+      const std::string source = path_ + ": " + topic;
+      recording_.scenario = hovercraft::parseScenario(
+          hovercraft::treeOf(recording_.scenario_text, source), {source, "", {}});
       return;
     }
     throw std::invalid_argument(path_ +
@@ -137,12 +143,13 @@ class Reader {
   }
 
   void readState(const rosbag::MessageInstance& instance) {
-    const auto state = messageAs<State>(path_, instance);
+    const auto state = hovercraft_ros::readState(path_, instance);
     const std::size_t vehicle = vehicleOf(instance);
     const RunTime time = timeOf(*state);
     const auto [last, is_first] = last_times_.emplace(vehicle, time);
     if (!is_first && !(last->second < time)) failAsTwoRuns(instance);
     last->second = time;
+    checkStamp(*state, instance);
     recording_.missing_states += sequences_[vehicle].missingBefore(state->header.seq);
     commands_[{time.episode, vehicle}].name(state->commands);
     events_[time.episode].name(state->events);
@@ -150,16 +157,36 @@ class Reader {
   }
 
   void readCommand(const rosbag::MessageInstance& instance) {
-    const auto message = messageAs<AppliedCommand>(path_, instance);
+    const auto message = readAppliedCommand(path_, instance);
     const std::size_t vehicle = vehicleOf(instance);
     if (!commands_[{message->episode, vehicle}].add(message->number)) failAsTwoRuns(instance);
     recording_.commands.push_back({timeOf(*message), toCommand(*message, vehicle)});
   }
 
   void readEvent(const rosbag::MessageInstance& instance) {
-    const auto event = messageAs<RunEvent>(path_, instance);
+    const auto event = readRunEvent(path_, instance);
     if (!events_[event->episode].add(event->number)) failAsTwoRuns(instance);
     recording_.events.push_back(*event);
+  }
+
+  /// stamp = epoch + tick · h, with one epoch in an episode. So a damaged tick is seen, and no
+  /// replay runs towards one that was never reached. Only a load can put an epoch before time 0.
+  void checkStamp(const State& state, const rosbag::MessageInstance& instance) {
+    const auto stamp_ns = static_cast<std::int64_t>(state.header.stamp.toNSec());
+    const auto tick = static_cast<hovercraft::Tick>(state.tick);
+    const std::int64_t step_ns = recording_.scenario.step_ns;
+    const bool is_in_time = tick <= std::numeric_limits<std::int64_t>::max() / step_ns &&
+                            (state.episode != 0 || tick * step_ns <= stamp_ns);
+    if (!is_in_time) {
+      failAt(path_, instance,
+             fmt::format("tick = {}: must not be more steps than its stamp allows", tick));
+    }
+    const std::int64_t epoch_ns = stamp_ns - tick * step_ns;
+    if (epochs_ns_.emplace(state.episode, epoch_ns).first->second == epoch_ns) return;
+    failAt(path_, instance,
+           fmt::format("tick = {}: from tick to tick of an episode, stamps must go on by the step "
+                       "size",
+                       tick));
   }
 
   [[noreturn]] void failAsTwoRuns(const rosbag::MessageInstance& instance) const {
@@ -206,12 +233,13 @@ class Reader {
   std::map<std::size_t, RunTime> last_times_;                          // of the states, by vehicle
   std::map<std::pair<std::uint32_t, std::size_t>, Numbers> commands_;  // by episode and vehicle
   std::map<std::uint32_t, Numbers> events_;                            // by episode
+  std::map<std::uint32_t, std::int64_t> epochs_ns_;                    // by episode
 };
 
 }  // namespace
 
 Recording readRecording(const std::string& path) {
-  return Reader(path).read();
+  return readingBag(path, [&] { return Reader(path).read(); });
 }
 
 }  // namespace hovercraft_ros

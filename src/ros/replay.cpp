@@ -12,6 +12,7 @@
 #include "hovercraft_sim/ros/bag_writer.h"
 #include "hovercraft_sim/ros/run_events.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
@@ -144,8 +145,9 @@ class Replayer {
       ++event_;
     }
     if (event_ == recording_.events.size() || !beginsEpisode(recording_.events[event_])) {
-      throw std::invalid_argument(fmt::format(
-          "the recording lacks the event that began episode {}: record ~events as well", episode));
+      throw std::invalid_argument(
+          fmt::format("{}: lacks the event that began episode {}: record ~events as well",
+                      recording_.source, episode));
     }
     episode_ = episode;
     apply(recording_.events[event_++]);
@@ -156,10 +158,15 @@ class Replayer {
   }
 
   void apply(const RunEvent& event) {
-    if (event.kind == RunEvent::LOAD && is_changed_) {
-      loadMotionOf(event);
-    } else {
-      applyEvent(event, simulation_);
+    try {
+      if (event.kind == RunEvent::LOAD && is_changed_) {
+        loadMotionOf(event);
+      } else {
+        applyEvent(event, simulation_);
+      }
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("{}: event {} of episode {}: {}", recording_.source,
+                                              event.number, event.episode, error.what()));
     }
     if (observer_.on_event) observer_.on_event(event, simulation_);
   }
@@ -236,7 +243,7 @@ void setKey(const YAML::Node& tree, const std::string& assignment) {
   if (!parent[path].IsDefined()) {
     throw std::invalid_argument("--set " + assignment + ": there is no such key in the scenario");
   }
-  node[path] = YAML::Load(assignment.substr(equals + 1));
+  node[path] = hovercraft::treeOf(assignment.substr(equals + 1), "--set " + assignment);
 }
 
 std::string verdictOf(const ReplayResult& result, const Recording& recording) {
@@ -273,8 +280,9 @@ ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scen
 }
 
 int replayBag(const ReplayRequest& request, std::string& verdict) {
+  hovercraft::checkOutputs({{"--output", request.output}}, {request.bag});
   const Recording recording = readRecording(request.bag);
-  YAML::Node tree = YAML::Load(recording.scenario_text);
+  const YAML::Node tree = hovercraft::treeOf(recording.scenario_text, request.bag + ": ~scenario");
   for (const std::string& assignment : request.sets) setKey(tree, assignment);
   const hovercraft::Scenario scenario = hovercraft::parseScenario(
       tree, {request.bag + ": ~scenario", "",

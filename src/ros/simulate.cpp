@@ -17,6 +17,7 @@
 #include "hovercraft_sim/sim/commands_csv.h"
 #include "hovercraft_sim/sim/contacts_csv.h"
 #include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/states_csv.h"
 
@@ -28,11 +29,6 @@ using hovercraft::Tick;
 namespace fs = std::filesystem;
 
 namespace {
-
-bool isSameFile(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::is_regular_file(a, ignored) && fs::equivalent(a, b, ignored);
-}
 
 Tick ticksOfDuration(const std::string& text, const Scenario& scenario) {
   const auto fail = [&](const std::string& rule) {
@@ -68,11 +64,8 @@ void checkRequest(const SimulateRequest& request) {
   if (request.commands.empty() && request.duration.empty()) {
     throw std::invalid_argument("--duration is missing: without --commands it must be given");
   }
-  for (const std::string& input : {request.scenario, request.commands}) {
-    if (!isSameFile(input, request.output)) continue;
-    throw std::invalid_argument(
-        fmt::format("--output = {}: must not be a file that is read", request.output));
-  }
+  hovercraft::checkOutputs({{"--output", request.output}, {"--contacts", request.contacts}},
+                           {request.scenario, request.commands});
 }
 
 void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scenario,

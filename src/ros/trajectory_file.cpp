@@ -61,7 +61,9 @@ class SpaceReader {
   SpaceReader(std::string path, const rosbag::Bag& bag, std::string space)
       : path_(std::move(path)), bag_(bag), space_(std::move(space)) {}
 
-  Trajectory fromState() const;
+  Trajectory fromState();
+  /// ROS time of tick 0, ns, where two states tell it.
+  std::optional<std::int64_t> epochNs() const { return epoch_ns_; }
   Trajectory fromOdom() const;
   /// @param has_twist there is a twist topic.
   Trajectory fromPose(bool has_twist) const;
@@ -92,6 +94,7 @@ class SpaceReader {
   std::string path_;
   const rosbag::Bag& bag_;
   std::string space_;
+  std::optional<std::int64_t> epoch_ns_;
 };
 
 void SpaceReader::add(Trajectory& trajectory, const TrajectorySample& sample,
@@ -107,7 +110,7 @@ void SpaceReader::add(Trajectory& trajectory, const TrajectorySample& sample,
   trajectory.samples.push_back(sample);
 }
 
-Trajectory SpaceReader::fromState() const {
+Trajectory SpaceReader::fromState() {
   Trajectory trajectory = emptyTrajectory(topic(kStateTopic) + ", centre of mass");
   std::vector<std::int64_t> stamps_ns;
   std::optional<std::uint32_t> first_episode;
@@ -145,6 +148,7 @@ Trajectory SpaceReader::fromState() const {
                       path_, topic(kStateTopic)));
     }
   }
+  epoch_ns_ = epoch_ns;
   return trajectory;
 }
 
@@ -198,11 +202,18 @@ std::vector<Trajectory> readAll(const std::string& path, const rosbag::Bag& bag)
                     path, kStateTopic, kOdomTopic, kPoseTopic));
   }
   std::vector<Trajectory> trajectories;
+  std::set<std::int64_t> epochs_ns;
   for (const std::string& space : spaces) {
-    const SpaceReader reader(path, bag, space);
+    SpaceReader reader(path, bag, space);
     trajectories.push_back(states.count(space) > 0  ? reader.fromState()
                            : odoms.count(space) > 0 ? reader.fromOdom()
                                                     : reader.fromPose(twists.count(space) > 0));
+    if (reader.epochNs()) epochs_ns.insert(*reader.epochNs());
+  }
+  if (epochs_ns.size() != 1) return trajectories;
+  for (Trajectory& trajectory : trajectories) {
+    if (states.count(trajectory.vehicle) > 0) continue;
+    for (TrajectorySample& sample : trajectory.samples) sample.time_ns -= *epochs_ns.begin();
   }
   return trajectories;
 }
@@ -212,11 +223,7 @@ std::vector<Trajectory> readAll(const std::string& path, const rosbag::Bag& bag)
 std::vector<Trajectory> readBagTrajectories(const std::string& path) {
   rosbag::Bag bag;
   openForReading(bag, path);
-  try {
-    return readAll(path, bag);
-  } catch (const rosbag::BagException& error) {
-    throw std::invalid_argument(fmt::format("{}: cannot be read: {}", path, error.what()));
-  }
+  return readingBag(path, [&] { return readAll(path, bag); });
 }
 
 std::vector<Trajectory> readTrajectories(const std::string& path) {

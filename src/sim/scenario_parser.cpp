@@ -273,6 +273,14 @@ Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
   return scenario;
 }
 
+YAML::Node treeOf(const std::string& text, const std::string& source) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::Exception& error) {
+    throw std::invalid_argument(fmt::format("{}: not YAML: {}", source, error.what()));
+  }
+}
+
 Scenario loadScenario(const std::string& path,
                       std::function<std::string(const std::string&)> package_folder) {
   std::error_code unreadable;

@@ -70,6 +70,7 @@ void writeErrors(const std::string& path, const hovercraft::Comparison& comparis
 
 /// @returns whether all agree.
 bool compare(const Request& request) {
+  hovercraft::checkOutputs({{"--errors", request.errors}}, {request.a, request.b});
   const auto a = hovercraft_ros::readTrajectories(request.a);
   const auto b = hovercraft_ros::readTrajectories(request.b);
   const auto pairs = hovercraft::pairByVehicle(a, b, request.vehicle);

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <functional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,12 @@
 #include <hovercraft_sim/State.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <std_msgs/String.h>
 
+#include "hovercraft_sim/ros/simulate.h"
 #include "hovercraft_sim/ros/trajectory_file.h"
+#include "hovercraft_sim/sim/compare.h"
 
 #include "../support/files.h"
 
@@ -156,6 +160,74 @@ TEST_F(TrajectoryFile, APoseWithoutItsTwistHasNoVelocities) {
     }
   });
   EXPECT_FALSE(readTrajectories(path_)[0].has_velocities);
+}
+
+TEST_F(TrajectoryFile, WhatHasNoStateCountsFromTickZeroOfThoseThatHaveOne) {
+  const auto fill = [](rosbag::Bag& bag) {
+    for (const std::int64_t tick : {5, 10, 20}) {
+      bag.write("/craft/state", stampOfTick(tick), stateAt(tick));
+      bag.write("/crate/pose", stampOfTick(tick), poseAt(tick));
+      bag.write("/other/odom", stampOfTick(tick), odomAt(tick));
+    }
+  };
+  write(fill);
+  const auto read = readTrajectories(path_);
+  ASSERT_EQ(read.size(), 3U);
+  for (const auto& trajectory : read) {
+    ASSERT_EQ(trajectory.samples.size(), 3U);
+    EXPECT_EQ(trajectory.samples[0].time_ns, 5 * kStepNs) << trajectory.vehicle;
+    EXPECT_EQ(trajectory.samples[2].time_ns, 20 * kStepNs) << trajectory.vehicle;
+  }
+  // Two runs with ticks of their own have no time in common but that of their stamps.
+  write([&fill](rosbag::Bag& bag) {
+    fill(bag);
+    for (const std::int64_t tick : {5, 10}) {
+      auto later = stateAt(tick);
+      later.header.stamp += ros::Duration(1, 0);
+      bag.write("/late/state", stampOfTick(tick), later);
+    }
+  });
+  const auto of_two = readTrajectories(path_);
+  ASSERT_EQ(of_two[1].vehicle, "crate");
+  EXPECT_EQ(of_two[1].samples[0].time_ns, kEpochNs + 5 * kStepNs);
+}
+
+/// A bag of `simulate` as if it had been recorded live: every stamp is later by one epoch.
+void copyLater(const std::string& from, const std::string& to, std::int64_t epoch_ns) {
+  const rosbag::Bag bag(from);
+  rosbag::Bag later(to, rosbag::bagmode::Write);
+  const auto shifted = [epoch_ns](const ros::Time& stamp) {
+    return ros::Time().fromNSec(stamp.toNSec() + static_cast<std::uint64_t>(epoch_ns));
+  };
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag)) {
+    if (const auto state = instance.instantiate<hovercraft_sim::State>()) {
+      state->header.stamp = shifted(state->header.stamp);
+      later.write(instance.getTopic(), shifted(instance.getTime()), *state);
+    } else if (const auto pose = instance.instantiate<geometry_msgs::PoseStamped>()) {
+      pose->header.stamp = shifted(pose->header.stamp);
+      later.write(instance.getTopic(), shifted(instance.getTime()), *pose);
+    }
+  }
+}
+
+TEST_F(TrajectoryFile, ALiveBagWithLooseBodiesIsComparedWithThatOfSimulate) {
+  SimulateRequest request;
+  request.scenario = "config/crates.yaml";
+  request.duration = "2";
+  request.every = 10;
+  request.output = path_;
+  std::ostringstream messages;
+  simulate(request, messages);
+  copyLater(path_, folder_.file("live.bag"), kEpochNs);
+  const auto simulated = readTrajectories(path_);
+  const auto live = readTrajectories(folder_.file("live.bag"));
+  const auto pairs = hovercraft::pairByVehicle(simulated, live);
+  ASSERT_EQ(pairs.size(), 3U);
+  for (const auto& pair : pairs) {
+    const auto comparison = hovercraft::compareTrajectories(*pair.a, *pair.b, {});
+    EXPECT_TRUE(comparison.is_within) << pair.a->source << toText(comparison, {});
+    EXPECT_EQ(comparison.errors.size(), 200U);
+  }
 }
 
 TEST_F(TrajectoryFile, EachNamespaceIsATrajectory) {

@@ -6,10 +6,11 @@ import unittest
 import rospy
 import rostest
 import tf2_ros
+from hovercraft_sim.srv import Reset
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ros_waiting import wait_until
+from ros_waiting import service, wait_until
 
 
 class MarkersTest(unittest.TestCase):
@@ -35,6 +36,26 @@ class MarkersTest(unittest.TestCase):
         self.assertEqual(path.action, Marker.ADD)
         self.assertLess(path.points[0].x, path.points[-1].x)
         listener.unregister()
+
+    def test_a_reset_begins_a_new_path(self):
+        shown = []
+        rospy.Subscriber('/hovercraft_markers/markers', MarkerArray,
+                         lambda array: shown.extend(m for m in array.markers if m.ns == 'hovercraft/path'))
+        reset = service('reset', Reset)
+
+        def flown():
+            """x along the path that is shown; the craft flies towards greater x."""
+            return [point.x for point in shown[-1].points] if shown else []
+
+        self.assertTrue(reset().success)
+        wait_until(lambda: len(flown()) > 20, 'a path')
+        far = flown()[-1]
+        self.assertTrue(reset().success)
+
+        def is_new():
+            x = flown()
+            return len(x) > 2 and x[-1] < far - 0.2 and x == sorted(x)
+        wait_until(is_new, 'a path without a line back to the start')
 
 
 if __name__ == '__main__':

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
+#include <ros/exception.h>
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
@@ -20,18 +22,32 @@ void openForReading(rosbag::Bag& bag, const std::string& path);
 [[noreturn]] void failAt(const std::string& path, const rosbag::MessageInstance& message,
                          const std::string& rule);
 
+/// What `read` returns, which reads an open bag: one that is damaged shows itself only then.
+/// @throws std::invalid_argument that names the file instead of an exception of rosbag.
+template <class Read>
+auto readingBag(const std::string& path, const Read& read) {
+  try {
+    return read();
+  } catch (const rosbag::BagException& error) {
+    throw std::invalid_argument(path + ": cannot be read: " + error.what());
+  }
+}
+
 /// The message as its type.
-/// @throws std::invalid_argument if it is of another type.
+/// @throws std::invalid_argument if it is of another type, or damaged.
 template <class Message>
 boost::shared_ptr<const Message> messageAs(const std::string& path,
                                            const rosbag::MessageInstance& instance) {
-  boost::shared_ptr<const Message> message = instance.instantiate<Message>();
-  if (!message) {
-    failAt(path, instance,
-           std::string("the type ") + instance.getDataType() + " must be " +
-               ros::message_traits::DataType<Message>::value());
+  const std::string type = ros::message_traits::DataType<Message>::value();
+  boost::shared_ptr<const Message> message;
+  try {
+    message = instance.instantiate<Message>();
+  } catch (const ros::Exception& error) {
+    failAt(path, instance, "cannot be read as " + type + ": " + error.what());
   }
-  return message;
+  if (message) return message;
+  if (instance.getDataType() == type) failAt(path, instance, type + " has another definition");
+  failAt(path, instance, "the type " + instance.getDataType() + " must be " + type);
 }
 
 }  // namespace hovercraft_ros

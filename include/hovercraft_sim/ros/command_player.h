@@ -16,10 +16,31 @@
 
 namespace hovercraft_ros {
 
+/// Simulated time that has passed since the first state that was heard, in ticks. It goes on
+/// through the episodes: a reset or a load takes no time, as ROS time goes on. Where ticks go back
+/// without a new episode (the simulation was started again) it goes on from the first state of the
+/// new run.
+class PlayedTime {
+ public:
+  explicit PlayedTime(std::int64_t step_ns) : step_ns_(step_ns) {}
+
+  /// The next state was heard. @returns ticks, 0 at first; they never go back.
+  hovercraft::Tick hear(const hovercraft_sim::State& state);
+  /// Whether that state began an episode or a run, whose engines are without command.
+  bool isNewRun() const { return is_new_run_; }
+
+ private:
+  std::int64_t step_ns_;
+  std::optional<hovercraft_sim::State> last_;
+  hovercraft::Tick played_ = 0;
+  bool is_new_run_ = false;
+};
+
 /// Plays commands into a live simulation as ThrustCommand messages, on simulated time: it listens
 /// to the ticks of the state topic, so that it keeps to the manoeuvre at any pace. Tick 0 of the
 /// commands is the first state that it hears. The last thrusts are repeated well within the
-/// time-outs of the engines.
+/// time-outs of the engines. A reset or a load does not stop it: the commands go on in the new
+/// episode at the simulated time at which they were, with the thrusts that hold then.
 class CommandPlayer {
  public:
   /// @param handle of the namespace that the craft's namespaces lie in.
@@ -48,7 +69,8 @@ class CommandPlayer {
   std::vector<hovercraft::Vector3> thrusts_;
   std::vector<bool> commanded_;
   ros::Subscriber state_subscriber_;
-  std::optional<hovercraft::Tick> start_;  // of the simulation when the player began
+  PlayedTime time_;
+  bool has_begun_ = false;
   hovercraft::Tick last_command_ = 0;
   hovercraft::Tick last_sent_ = 0;
   bool done_ = false;

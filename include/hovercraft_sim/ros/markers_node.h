@@ -7,19 +7,21 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <hovercraft_sim/EngineStatus.h>
+#include <hovercraft_sim/State.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 #include <ros/wall_timer.h>
 #include <std_msgs/String.h>
 
+#include "hovercraft_sim/ros/flown_path.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros {
 
 /// Draws every craft of a running or replayed simulation: listens to the latched scenario, then to
-/// pose and engines of each craft, and publishes one MarkerArray for all of them. The simulation
-/// knows nothing of it.
+/// pose, engines and state of each craft, and publishes one MarkerArray for all of them. A bag
+/// without states is drawn as well. The simulation knows nothing of it.
 class MarkersNode {
  public:
   MarkersNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
@@ -29,13 +31,12 @@ class MarkersNode {
     hovercraft::VehicleScenario description;
     std::string world_frame;
     hovercraft_sim::EngineStatus engines;
-    std::vector<geometry_msgs::Point> path;
+    FlownPath path;
     std::vector<ros::Subscriber> subscribers;
   };
 
   void onScenario(const std_msgs::String& message);
   void watch(const hovercraft::VehicleScenario& description);
-  static void extendPath(Craft& craft, const geometry_msgs::PoseStamped& pose);
   void publish();
   void makeStill(const std::string& world_frame);
 

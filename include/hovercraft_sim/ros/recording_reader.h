@@ -34,6 +34,7 @@ struct Recording {
     hovercraft_sim::State state;
   };
 
+  std::string source = "the recording";  // for people: the file
   std::string scenario_text;
   hovercraft::Scenario scenario;  // the same, parsed
   std::vector<RecordedCommand> commands;
@@ -55,8 +56,10 @@ struct Recording {
 /// named .../scenario). Which commands and events are missing is seen from their numbers, which
 /// each State repeats; which states, from header.seq, which a publisher counts up (a bag of
 /// `simulate`, where all are 0, is whole).
-/// @throws std::invalid_argument that names the file and what is wrong: no bag, no index, no
-/// scenario, no state, a vehicle that the scenario lacks, more than one run.
+/// @throws std::invalid_argument that names the file and what is wrong: no bag, no index, damaged,
+/// no scenario, no state, a vehicle that the scenario lacks, more than one run; or topic, time and
+/// rule of a message that cannot be (recorded_messages.h), such as a State whose stamp does not fit
+/// its tick.
 Recording readRecording(const std::string& path);
 
 }  // namespace hovercraft_ros

@@ -42,7 +42,8 @@ struct ReplayObserver {
 /// recorded state bit for bit until the first difference or the first gap.
 /// @param scenario that it runs in; that of the recording, or another one to see what would have
 /// been; a snapshot that was loaded then gives it the motion, not the momenta.
-/// @throws std::invalid_argument if an event does not fit the scenario.
+/// @throws std::invalid_argument that names the recording and the event if one does not fit the
+/// scenario.
 ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scenario, bool compares,
                     const ReplayObserver& observer = {});
 

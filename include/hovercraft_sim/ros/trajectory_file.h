@@ -12,6 +12,8 @@ namespace hovercraft_ros {
 ///   `state`: centre of mass; times are simulated ones, from tick 0, whatever the stamps begin
 ///   with; `odom`: base_link; times are the stamps, velocities are turned into world axes; `pose`,
 ///   with `twist` where that has every stamp of it: likewise.
+/// Where the bag has states, and they tell of one time of tick 0 only, all other times count from
+/// there too: those of loose bodies, which have no state, as those of the craft.
 /// @throws std::invalid_argument that names the bag, the topic, the stamp and the rule.
 std::vector<hovercraft::Trajectory> readBagTrajectories(const std::string& path);
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace hovercraft {
 
@@ -23,6 +24,17 @@ class PartialFile {
   std::string path_;
   std::string partial_path_;  // the path itself where the file is written to directly
 };
+
+/// A file that a tool is asked to write.
+struct OutputOption {
+  std::string option;  // that names it, such as --output
+  std::string path;    // empty: not asked for; `-`: the standard output
+};
+
+/// What is read stays: no output may be one of the files that are read, or the same file as another
+/// output, under whatever names; nor may its `.partial`.
+/// @throws std::invalid_argument with option, path and rule.
+void checkOutputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);
 
 /// A file that is written from its beginning to its end.
 class OutputFile {

@@ -23,6 +23,11 @@ struct ScenarioSource {
 /// @throws std::invalid_argument with one line that names source, key path, value and rule.
 Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source);
 
+/// The tree of a text.
+/// @param source what the text is, for the message.
+/// @throws std::invalid_argument with the source if it is not YAML.
+YAML::Node treeOf(const std::string& text, const std::string& source);
+
 /// Reads the file and parses it; relative mesh paths start from its folder.
 /// @param package_folder see ScenarioSource.
 /// @throws std::invalid_argument also if the file cannot be read or is not YAML.

@@ -1,0 +1,98 @@
+#include "hovercraft_sim/ros/recorded_messages.h"
+
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <limits>
+
+#include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/ros/bag_file.h"
+#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/sim/command_log.h"
+
+namespace hovercraft_ros {
+
+using hovercraft_sim::AppliedCommand;
+using hovercraft_sim::RunEvent;
+using hovercraft_sim::State;
+
+namespace {
+
+/// One message of a bag, and what is demanded of it.
+struct Place {
+  const std::string& path;
+  const rosbag::MessageInstance& instance;
+
+  void require(bool holds, const std::string& rule) const {
+    if (!holds) failAt(path, instance, rule);
+  }
+  void requireTick(const char* name, std::uint64_t tick) const {
+    require(tick <= static_cast<std::uint64_t>(std::numeric_limits<hovercraft::Tick>::max()),
+            fmt::format("{} = {}: must fit 63 bits", name, tick));
+  }
+  template <class Message>
+  void requireFinite(const char* name, const Message& vector) const {
+    require(fromMessage(vector).allFinite(), fmt::format("{}: must be finite", name));
+  }
+};
+
+void checkMotion(const Place& place, const RunEvent& event) {
+  place.requireFinite("pose.position", event.pose.position);
+  place.requireFinite("twist.linear", event.twist.linear);
+  place.requireFinite("twist.angular", event.twist.angular);
+  const double length = norm(fromMessage(event.pose.orientation));
+  place.require(std::abs(length - 1.0) <= hovercraft::kUnitLength,
+                fmt::format("pose.orientation: must have length 1 (it has {:.6g})", length));
+}
+
+void checkWrench(const Place& place, const RunEvent& event) {
+  place.requireFinite("wrench.force", event.wrench.force);
+  place.requireFinite("wrench.torque", event.wrench.torque);
+  place.requireTick("end_tick", event.end_tick);
+}
+
+}  // namespace
+
+boost::shared_ptr<const AppliedCommand> readAppliedCommand(
+    const std::string& path, const rosbag::MessageInstance& instance) {
+  const Place place = {path, instance};
+  auto message = messageAs<AppliedCommand>(path, instance);
+  place.requireTick("tick", message->tick);
+  place.require(message->engines != 0 && message->engines <= hovercraft::kAllEngines,
+                fmt::format("engines = {}: must be 1 to 7", message->engines));
+  place.require(
+      std::isfinite(message->rear) && std::isfinite(message->left) && std::isfinite(message->right),
+      "a thrust must be finite");
+  return message;
+}
+
+boost::shared_ptr<const RunEvent> readRunEvent(const std::string& path,
+                                               const rosbag::MessageInstance& instance) {
+  const Place place = {path, instance};
+  auto message = messageAs<RunEvent>(path, instance);
+  place.requireTick("tick", message->tick);
+  switch (message->kind) {
+    case RunEvent::RESET:
+    case RunEvent::LOAD:
+      break;
+    case RunEvent::SET_STATE:
+      checkMotion(place, *message);
+      break;
+    case RunEvent::APPLY_WRENCH:
+      checkWrench(place, *message);
+      break;
+    default:
+      failAt(path, instance, fmt::format("kind = {}: is no event that is known", message->kind));
+  }
+  return message;
+}
+
+boost::shared_ptr<const State> readState(const std::string& path,
+                                         const rosbag::MessageInstance& instance) {
+  auto message = messageAs<State>(path, instance);
+  Place{path, instance}.requireTick("tick", message->tick);
+  return message;
+}
+
+}  // namespace hovercraft_ros
