@@ -124,6 +124,17 @@ void setMotion(const RunEvent& event, hovercraft::Simulation& simulation) {
                        {fromMessage(event.twist.linear), fromMessage(event.twist.angular)});
 }
 
+void load(const RunEvent& event, hovercraft::Simulation& simulation) {
+  const auto state = hovercraft::parseSnapshot(event.snapshot, "snapshot", simulation.scenario());
+  // A live command takes effect at once, so none can stand before it that takes effect later.
+  for (const hovercraft::Command& command : state.commands.waiting()) {
+    require(command.tick == state.tick,
+            fmt::format("snapshot: commands: tick = {}: must be that of the snapshot, {}",
+                        command.tick, state.tick));
+  }
+  simulation.restore(state);
+}
+
 }  // namespace
 
 void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
@@ -133,7 +144,7 @@ void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
       simulation.reset(event.seed);
       return;
     case RunEvent::LOAD:
-      simulation.restore(hovercraft::parseSnapshot(event.snapshot, "snapshot", scenario));
+      load(event, simulation);
       return;
     case RunEvent::SET_STATE:
       setMotion(event, simulation);

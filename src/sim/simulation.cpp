@@ -84,7 +84,6 @@ void Simulation::reset(std::int64_t seed) {
     }
     partTouching(-1);
   }
-  commands_ = CommandLog();
 }
 
 void Simulation::restore(const SimulationState& state) {
@@ -92,7 +91,6 @@ void Simulation::restore(const SimulationState& state) {
              state.bodies.size() == (world_ ? scenario_.world->bodies.size() : 0),
          "a state must come from the same scenario");
   state_ = state;
-  commands_ = CommandLog();
 }
 
 void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
@@ -159,11 +157,11 @@ void Simulation::push(const Command& command) {
   demand(command.tick >= state_.tick, "a command must not lie in the past");
   demand(command.vehicle < state_.vehicles.size(), "a command must name a vehicle of the scenario");
   demand(command.thrusts.allFinite(), "a thrust must be checked before it becomes a command");
-  commands_.push(command);
+  state_.commands.push(command);
 }
 
 void Simulation::applyDueCommands() {
-  while (const Command* command = commands_.takeDue(state_.tick)) {
+  while (const Command* command = state_.commands.takeDue(state_.tick)) {
     EngineStates& engines = state_.vehicles[command->vehicle].engines;
     for (int i = 0; i < kEngineCount; ++i) {
       if ((command->engines & maskOf(static_cast<EngineId>(i))) == 0) continue;

@@ -103,6 +103,29 @@ TEST(LiveRun, LoadGoesOnFromTheSnapshotsTickWhileTimeGoesOn) {
   EXPECT_EQ(run.stamp(), ros::Time(0, 4000000));
 }
 
+TEST(LiveRun, ARenewedStampIsOneStepLater) {
+  LiveRun run(parsed(validScenario()), kEpoch);  // steps of 2 ms
+  advance(run, 3);
+  run.renewStamp();
+  EXPECT_EQ(run.stamp(), ros::Time(5, 8000000));
+  EXPECT_EQ(run.simulation().tick(), 3);
+  advance(run, 1);
+  EXPECT_EQ(run.stamp(), ros::Time(5, 10000000));
+}
+
+// A live command takes effect at the next step: it could not be queued behind a later one.
+TEST(LiveRun, ASnapshotWithCommandsOfLaterTicksIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  hovercraft::Simulation saved(scenario);
+  saved.push({0, 0, hovercraft::kAllEngines, Vector3::Zero()});
+  LiveRun run(scenario, kEpoch);
+  run.apply(loadEvent(hovercraft::toSnapshot(saved)));
+  EXPECT_TRUE(run.simulation().hasWaitingCommands());
+  saved.push({3, 0, hovercraft::kAllEngines, Vector3::Zero()});
+  EXPECT_EQ(refusal([&] { run.apply(loadEvent(hovercraft::toSnapshot(saved))); }),
+            "snapshot: commands: tick = 3: must be that of the snapshot, 0");
+}
+
 TEST(LiveRun, AnEventThatIsRefusedChangesNothing) {
   LiveRun run(parsed(validScenario()), kEpoch);
   advance(run, 10);

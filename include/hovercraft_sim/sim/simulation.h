@@ -34,7 +34,8 @@ struct ExternalWrench {
   Tick end_tick = 0;  // it acts in the steps that begin before this tick
 };
 
-/// Everything that determines the future of a run, besides the scenario and the commands to come.
+/// Everything that determines the future of a run, besides the scenario and what is still to be
+/// pushed.
 struct SimulationState {
   Tick tick = 0;
   std::int64_t seed = 1;
@@ -42,6 +43,7 @@ struct SimulationState {
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
   std::vector<BodyState> bodies;         // loose ones, in the order of the scenario
   std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
+  CommandLog commands;                   // that have not taken effect
 };
 
 /// A contact as it is reported: once, in the step in which it happened.
@@ -85,7 +87,7 @@ class Simulation {
 
   /// Queues a command; one whose tick has passed is a mistake of the caller.
   void push(const Command& command);
-  bool hasWaitingCommands() const { return !commands_.empty(); }
+  bool hasWaitingCommands() const { return !state_.commands.empty(); }
 
   /// Puts a craft somewhere else, with other velocities: from the current tick on. Its engines stay
   /// as they are.
@@ -105,7 +107,7 @@ class Simulation {
   /// run.
   void reset(std::int64_t seed);
 
-  /// Goes on from a state of the same scenario, at its tick; commands that waited are dropped.
+  /// Goes on from a state of the same scenario, at its tick; commands that waited give way to its.
   void restore(const SimulationState& state);
   const SimulationState& state() const { return state_; }
 
@@ -155,7 +157,6 @@ class Simulation {
   std::vector<HovercraftModel> models_;
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;
-  CommandLog commands_;
   std::optional<World> world_;
   std::vector<BodyState> moving_;  // of a step: vehicles, then loose bodies
   std::vector<BodyDrive> drives_;
