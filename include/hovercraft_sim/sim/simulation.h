@@ -112,8 +112,9 @@ class Simulation {
   const SimulationState& state() const { return state_; }
 
   /// Applies the commands that are due and moves every craft from tick n to n + 1.
-  /// @throws std::runtime_error that names the craft if its state is not finite afterwards: the
-  /// step is too long for the forces.
+  /// @throws std::runtime_error that names the craft if its state would not be finite afterwards:
+  /// the step is too long for the forces. The tick, every motion, thrust and contact are then those
+  /// before the step; the commands that were due have taken effect.
   void step();
 
   const Scenario& scenario() const { return scenario_; }
@@ -143,10 +144,11 @@ class Simulation {
 
  private:
   void applyDueCommands();
-  void stepVehicle(std::size_t vehicle);
+  void stepVehicles();
   [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
   void stepWorld();
+  void takeOver();
   void report();
   BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
                    const Mobility& mobility) const;
@@ -158,8 +160,10 @@ class Simulation {
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;
   std::optional<World> world_;
-  std::vector<BodyState> moving_;  // of a step: vehicles, then loose bodies
+  // Of a step, until all of it is known to be sound: vehicles, then loose bodies.
+  std::vector<BodyState> moving_;
   std::vector<BodyDrive> drives_;
+  std::vector<ContactMemory> contacts_;
   std::vector<ContactRecord> records_;
 };
 
