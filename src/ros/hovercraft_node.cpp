@@ -1,6 +1,9 @@
 #include "hovercraft_sim/ros/hovercraft_node.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <rosgraph_msgs/Clock.h>
+#include <stdexcept>
 #include <utility>
 
 #include <ros/callback_queue.h>
@@ -212,7 +215,13 @@ void HovercraftNode::stepOnce() {
 }
 
 void HovercraftNode::stepPaused(std::uint32_t steps) {
-  for (std::uint32_t i = 0; i < steps; ++i) stepOnce();
+  for (std::uint32_t i = 0; i < steps; ++i) {
+    // ros::ok() holds until the callbacks have ended, this one too.
+    if (!ros::ok() || ros::isShuttingDown()) {
+      throw std::runtime_error(fmt::format("the node shuts down after {} of {} steps", i, steps));
+    }
+    stepOnce();
+  }
 }
 
 void HovercraftNode::publishState() {

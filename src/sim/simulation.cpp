@@ -297,6 +297,12 @@ Motion Simulation::motion(std::size_t vehicle) const {
   return motionOf(models_[vehicle], state_.vehicles[vehicle].body);
 }
 
+Motion Simulation::motionAfterSetting(std::size_t vehicle, const Vector3& p_WB,
+                                      const Quaternion& q_WB, const Twist& twist) const {
+  const HovercraftModel& model = models_.at(vehicle);
+  return motionOf(model, placed(p_WB, q_WB, twist, model.mobility));
+}
+
 Motion Simulation::bodyMotion(std::size_t body) const {
   return motionOf(world_->bodies()[models_.size() + body].model, state_.bodies[body]);
 }

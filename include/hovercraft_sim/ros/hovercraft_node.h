@@ -54,7 +54,7 @@ class HovercraftNode {
   const LiveRun& liveRun() const { return run_; }
   /// @param real_time_factor 0 or greater; 0: as fast as it can.
   void setRealTimeFactor(double real_time_factor);
-  /// Steps now, whatever the pace.
+  /// Steps now, whatever the pace. @throws std::runtime_error if the node is shut down meanwhile.
   void stepPaused(std::uint32_t steps);
   /// Applies and publishes an event. @throws std::invalid_argument as applyEvent(); nothing has
   /// changed then.

@@ -96,6 +96,10 @@ class Simulation {
   void setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                  const Twist& twist);
 
+  /// What motion() would say after setMotion() with the same arguments.
+  Motion motionAfterSetting(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
+                            const Twist& twist) const;
+
   /// The body that a craft would overlap there by more than the tolerance; none without a world.
   std::optional<WorldOverlap> overlapAt(std::size_t vehicle, const Vector3& p_WB,
                                         const Quaternion& q_WB) const;
