@@ -108,6 +108,16 @@ void HovercraftNode::setRealTimeFactor(double real_time_factor) {
   restartPace();
 }
 
+double HovercraftNode::changeRealTimeFactor(double wanted) {
+  if (isRealTimeFactor(wanted)) {
+    setRealTimeFactor(wanted);
+  } else {
+    ROS_WARN("real_time_factor = %g: %s; it stays %g", wanted, kRealTimeFactorRuleText,
+             config_.real_time_factor);
+  }
+  return config_.real_time_factor;
+}
+
 void HovercraftNode::restartPace() {
   if (pacer_) pacer_->restart(run_.simulation().tick(), steadyNow());
 }

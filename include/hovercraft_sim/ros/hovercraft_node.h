@@ -52,8 +52,9 @@ class HovercraftNode {
   bool isPaused() const { return paused_; }
   const NodeConfig& config() const { return config_; }
   const LiveRun& liveRun() const { return run_; }
-  /// @param real_time_factor 0 or greater; 0: as fast as it can.
-  void setRealTimeFactor(double real_time_factor);
+  /// @param wanted one that breaks isRealTimeFactor() is refused with a warning.
+  /// @returns the factor that the node has now.
+  double changeRealTimeFactor(double wanted);
   /// Steps now, whatever the pace. @throws std::runtime_error if the node is shut down meanwhile.
   void stepPaused(std::uint32_t steps);
   /// Applies and publishes an event. @throws std::invalid_argument as applyEvent(); nothing has
@@ -62,6 +63,7 @@ class HovercraftNode {
 
  private:
   void publishConstants();
+  void setRealTimeFactor(double real_time_factor);
   void restartPace();
   bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
   const char* take(hovercraft::Command command, const std::optional<ros::Time>& stamp);
