@@ -35,6 +35,11 @@ std::int64_t epochOf(const NodeConfig& config) {
   return config.clock ? 0 : static_cast<std::int64_t>(ros::WallTime::now().toNSec());
 }
 
+bool beginsEpisode(const hovercraft_sim::RunEvent& event) {
+  return event.kind == hovercraft_sim::RunEvent::RESET ||
+         event.kind == hovercraft_sim::RunEvent::LOAD;
+}
+
 }  // namespace
 
 HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
@@ -145,6 +150,11 @@ const char* HovercraftNode::take(hovercraft::Command command,
   if (refusal != nullptr) return refusal;
   command.tick = run_.simulation().tick();
   run_.simulation().push(command);
+  if (config_.lockstep && !lockstep_.awaited()) {
+    // The time that the controllers took is not the node's lateness.
+    answered_ns_ = steadyNow();
+    if (pacer_) pacer_->forgiveWait(command.tick, answered_ns_);
+  }
   return nullptr;
 }
 
@@ -203,7 +213,8 @@ void HovercraftNode::advance() {
   while (isStepDue(now) && now < slice_end) {
     const hovercraft::Tick next = run_.simulation().tick() + 1;
     if (pacer_ && next == nextVisibleTick()) {
-      pace_.addLateness(now - pacer_->deadline(next), config_.scenario.step_ns);
+      pace_.addLateness(now - std::max(pacer_->deadline(next), answered_ns_),
+                        config_.scenario.step_ns);
     }
     stepOnce();
     const std::int64_t after = steadyNow();
@@ -218,10 +229,12 @@ void HovercraftNode::stepOnce() {
   const hovercraft::Tick tick = run_.simulation().tick();
   const bool ends_period = config_.lockstep && tick % config_.control_period == 0;
   if (ends_period || tick % config_.publish_every == 0) publishState();
-  if (ends_period) {
-    lockstep_.await(run_.stamp());
-    waiting_since_ns_ = steadyNow();
-  }
+  if (ends_period) awaitCommands();
+}
+
+void HovercraftNode::awaitCommands() {
+  lockstep_.await(run_.stamp());
+  waiting_since_ns_ = steadyNow();
 }
 
 void HovercraftNode::stepPaused(std::uint32_t steps) {
@@ -251,7 +264,17 @@ void HovercraftNode::publishState() {
 
 void HovercraftNode::apply(const hovercraft_sim::RunEvent& event) {
   events_.publish(run_.apply(event));
-  lockstep_.clear();
+  if (beginsEpisode(event)) {
+    lockstep_.clear();
+    const hovercraft::Tick tick = run_.simulation().tick();
+    if (config_.lockstep && tick > 0 && tick % config_.control_period == 0) {
+      // Here the run that never stopped waited. The stamp is a new one: a late command for the
+      // state before the load is none for the one after it.
+      run_.renewStamp();
+      publishState();
+      awaitCommands();
+    }
+  }
   restartPace();
 }
 

@@ -72,6 +72,7 @@ class HovercraftNode {
   void advance();
   bool isStepDue(std::int64_t now_ns) const;
   void stepOnce();
+  void awaitCommands();
   void publishState();
   void noticeSilence(std::int64_t now_ns);
   void report();
@@ -95,6 +96,7 @@ class HovercraftNode {
   PaceReport pace_;
   hovercraft_sim::Telemetry telemetry_message_;
   std::int64_t waiting_since_ns_ = 0;  // for the commands of a lockstep period
+  std::int64_t answered_ns_ = 0;       // when the last of them came
   WarningLimiter behind_warnings_;
   WarningLimiter silence_warnings_;
   std::vector<std::uint64_t> reported_drops_;
