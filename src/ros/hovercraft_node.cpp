@@ -25,6 +25,7 @@ constexpr std::uint32_t kContactQueue = 10000;  // every contact belongs in a re
 constexpr std::uint32_t kBodyQueue = 10;
 constexpr std::uint32_t kEventQueue = 1000;  // every event belongs in a recording
 constexpr std::uint32_t kTelemetryQueue = 10;
+constexpr std::uint32_t kClockQueue = 10;
 
 hovercraft::Tick nextMultiple(hovercraft::Tick tick, hovercraft::Tick period) {
   return (tick + period - 1) / period * period;
@@ -33,6 +34,18 @@ hovercraft::Tick nextMultiple(hovercraft::Tick tick, hovercraft::Tick period) {
 /// ROS time of tick 0: 0 where this node makes the time, else the wall time of its start.
 std::int64_t epochOf(const NodeConfig& config) {
   return config.clock ? 0 : static_cast<std::int64_t>(ros::WallTime::now().toNSec());
+}
+
+ClockSource clockOn(ros::NodeHandle handle, double rate) {
+  // Latched: a node that starts while the simulation is paused learns the time as well.
+  const ros::Publisher publisher =
+      handle.advertise<rosgraph_msgs::Clock>("/clock", kClockQueue, true);
+  const auto publish = [publisher](const ros::Time& stamp) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = stamp;
+    publisher.publish(clock);
+  };
+  return {publish, rate};
 }
 
 bool beginsEpisode(const hovercraft_sim::RunEvent& event) {
@@ -81,7 +94,7 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
   scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
   events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
   telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
-  if (config_.clock) clock_.emplace(handle, config_.clock_rate);
+  if (config_.clock) clock_.emplace(clockOn(handle, config_.clock_rate));
   publishConstants();
 
   diagnostics_.setHardwareID("none");
