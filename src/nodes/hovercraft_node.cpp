@@ -4,6 +4,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <exception>
 #include <stdexcept>
+#include <string>
 
 #include <hovercraft_sim/PaceConfig.h>
 #include <ros/console.h>
@@ -20,17 +21,19 @@ int main(int argc, char** argv) {
   const ros::NodeHandle handle;
   try {
     const ros::NodeHandle private_handle("~");
+    const std::string name = ros::this_node::getName();
     XmlRpc::XmlRpcValue parameters;
     ros::param::get(private_handle.getNamespace(), parameters);
     hovercraft_ros::HovercraftNode node(
         handle, private_handle,
-        hovercraft_ros::parseNodeConfig(hovercraft_ros::toYaml(parameters),
-                                        ros::this_node::getName()));
+        hovercraft_ros::parseNodeConfig(hovercraft_ros::toYaml(parameters, name), name));
     const hovercraft_ros::NodeServices services(private_handle, node);
-    // The server calls back once at its start, with the parameter of the node.
+    // The server reads the parameter again, and takes a number that came as text for none.
+    private_handle.setParam("real_time_factor", node.config().real_time_factor);
+    // It calls back once at its start. What it is left with goes into its answers.
     dynamic_reconfigure::Server<hovercraft_sim::PaceConfig> pace(private_handle);
-    pace.setCallback([&node](const hovercraft_sim::PaceConfig& config, std::uint32_t /*level*/) {
-      node.setRealTimeFactor(config.real_time_factor);
+    pace.setCallback([&node](hovercraft_sim::PaceConfig& config, std::uint32_t /*level*/) {
+      config.real_time_factor = node.changeRealTimeFactor(config.real_time_factor);
     });
     node.run();
   } catch (const std::exception& error) {

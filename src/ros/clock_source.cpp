@@ -1,7 +1,7 @@
 #include "hovercraft_sim/ros/clock_source.h"
 
 #include <cmath>
-#include <rosgraph_msgs/Clock.h>
+#include <utility>
 
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/ros/node_config.h"
@@ -12,21 +12,16 @@ namespace {
 constexpr double kNsPerSecond = static_cast<double>(hovercraft::kNanosecondsPerSecond);
 constexpr auto kLeastWallPeriodNs =
     static_cast<std::int64_t>(kNsPerSecond / NodeConfig::kMaxClockRate);
-constexpr std::uint32_t kQueue = 10;
 
 }  // namespace
 
-ClockSource::ClockSource(ros::NodeHandle handle, double rate)
-    // Latched: a node that starts while the simulation is paused learns the time as well.
-    : publisher_(handle.advertise<rosgraph_msgs::Clock>("/clock", kQueue, true)),
-      period_ns_(std::llround(kNsPerSecond / rate)) {}
+ClockSource::ClockSource(std::function<void(const ros::Time&)> publish, double rate)
+    : publish_(std::move(publish)), period_ns_(std::llround(kNsPerSecond / rate)) {}
 
 void ClockSource::publishIfDue(const ros::Time& stamp, std::int64_t now_ns, bool is_idle) {
   if (stamp.isZero() || now_ns - last_wall_ns_ < kLeastWallPeriodNs) return;
   if (stamp == last_stamp_ || (!is_idle && untilDueNs(stamp) > 0)) return;
-  rosgraph_msgs::Clock clock;
-  clock.clock = stamp;
-  publisher_.publish(clock);
+  publish_(stamp);
   last_stamp_ = stamp;
   last_wall_ns_ = now_ns;
 }

@@ -1,6 +1,9 @@
 #include "hovercraft_sim/ros/hovercraft_node.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <rosgraph_msgs/Clock.h>
+#include <stdexcept>
 #include <utility>
 
 #include <ros/callback_queue.h>
@@ -22,6 +25,7 @@ constexpr std::uint32_t kContactQueue = 10000;  // every contact belongs in a re
 constexpr std::uint32_t kBodyQueue = 10;
 constexpr std::uint32_t kEventQueue = 1000;  // every event belongs in a recording
 constexpr std::uint32_t kTelemetryQueue = 10;
+constexpr std::uint32_t kClockQueue = 10;
 
 hovercraft::Tick nextMultiple(hovercraft::Tick tick, hovercraft::Tick period) {
   return (tick + period - 1) / period * period;
@@ -30,6 +34,23 @@ hovercraft::Tick nextMultiple(hovercraft::Tick tick, hovercraft::Tick period) {
 /// ROS time of tick 0: 0 where this node makes the time, else the wall time of its start.
 std::int64_t epochOf(const NodeConfig& config) {
   return config.clock ? 0 : static_cast<std::int64_t>(ros::WallTime::now().toNSec());
+}
+
+ClockSource clockOn(ros::NodeHandle handle, double rate) {
+  // Latched: a node that starts while the simulation is paused learns the time as well.
+  const ros::Publisher publisher =
+      handle.advertise<rosgraph_msgs::Clock>("/clock", kClockQueue, true);
+  const auto publish = [publisher](const ros::Time& stamp) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = stamp;
+    publisher.publish(clock);
+  };
+  return {publish, rate};
+}
+
+bool beginsEpisode(const hovercraft_sim::RunEvent& event) {
+  return event.kind == hovercraft_sim::RunEvent::RESET ||
+         event.kind == hovercraft_sim::RunEvent::LOAD;
 }
 
 }  // namespace
@@ -73,7 +94,7 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
   scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
   events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
   telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
-  if (config_.clock) clock_.emplace(handle, config_.clock_rate);
+  if (config_.clock) clock_.emplace(clockOn(handle, config_.clock_rate));
   publishConstants();
 
   diagnostics_.setHardwareID("none");
@@ -105,6 +126,16 @@ void HovercraftNode::setRealTimeFactor(double real_time_factor) {
   restartPace();
 }
 
+double HovercraftNode::changeRealTimeFactor(double wanted) {
+  if (isRealTimeFactor(wanted)) {
+    setRealTimeFactor(wanted);
+  } else {
+    ROS_WARN("real_time_factor = %g: %s; it stays %g", wanted, kRealTimeFactorRuleText,
+             config_.real_time_factor);
+  }
+  return config_.real_time_factor;
+}
+
 void HovercraftNode::restartPace() {
   if (pacer_) pacer_->restart(run_.simulation().tick(), steadyNow());
 }
@@ -132,6 +163,11 @@ const char* HovercraftNode::take(hovercraft::Command command,
   if (refusal != nullptr) return refusal;
   command.tick = run_.simulation().tick();
   run_.simulation().push(command);
+  if (config_.lockstep && !lockstep_.awaited()) {
+    // The time that the controllers took is not the node's lateness.
+    answered_ns_ = steadyNow();
+    if (pacer_) pacer_->forgiveWait(command.tick, answered_ns_);
+  }
   return nullptr;
 }
 
@@ -190,7 +226,8 @@ void HovercraftNode::advance() {
   while (isStepDue(now) && now < slice_end) {
     const hovercraft::Tick next = run_.simulation().tick() + 1;
     if (pacer_ && next == nextVisibleTick()) {
-      pace_.addLateness(now - pacer_->deadline(next), config_.scenario.step_ns);
+      pace_.addLateness(now - std::max(pacer_->deadline(next), answered_ns_),
+                        config_.scenario.step_ns);
     }
     stepOnce();
     const std::int64_t after = steadyNow();
@@ -205,14 +242,22 @@ void HovercraftNode::stepOnce() {
   const hovercraft::Tick tick = run_.simulation().tick();
   const bool ends_period = config_.lockstep && tick % config_.control_period == 0;
   if (ends_period || tick % config_.publish_every == 0) publishState();
-  if (ends_period) {
-    lockstep_.await(run_.stamp());
-    waiting_since_ns_ = steadyNow();
-  }
+  if (ends_period) awaitCommands();
+}
+
+void HovercraftNode::awaitCommands() {
+  lockstep_.await(run_.stamp());
+  waiting_since_ns_ = steadyNow();
 }
 
 void HovercraftNode::stepPaused(std::uint32_t steps) {
-  for (std::uint32_t i = 0; i < steps; ++i) stepOnce();
+  for (std::uint32_t i = 0; i < steps; ++i) {
+    // ros::ok() holds until the callbacks have ended, this one too.
+    if (!ros::ok() || ros::isShuttingDown()) {
+      throw std::runtime_error(fmt::format("the node shuts down after {} of {} steps", i, steps));
+    }
+    stepOnce();
+  }
 }
 
 void HovercraftNode::publishState() {
@@ -232,7 +277,17 @@ void HovercraftNode::publishState() {
 
 void HovercraftNode::apply(const hovercraft_sim::RunEvent& event) {
   events_.publish(run_.apply(event));
-  lockstep_.clear();
+  if (beginsEpisode(event)) {
+    lockstep_.clear();
+    const hovercraft::Tick tick = run_.simulation().tick();
+    if (config_.lockstep && tick > 0 && tick % config_.control_period == 0) {
+      // Here the run that never stopped waited. The stamp is a new one: a late command for the
+      // state before the load is none for the one after it.
+      run_.renewStamp();
+      publishState();
+      awaitCommands();
+    }
+  }
   restartPace();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 
 #include <ros/package.h>
 
@@ -18,27 +19,44 @@ namespace {
 constexpr double kRateSlack = 1e-9;
 constexpr double kDefaultPublishRate = 100.0;  // Hz
 
+// Beyond it a count of steps is no exact double; such a period is a slip.
+constexpr double kMostSteps = 1e15;
+
+/// How many steps a period is; none if these are not a whole number.
+std::optional<hovercraft::Tick> wholeSteps(double steps) {
+  if (!(steps <= kMostSteps)) return std::nullopt;
+  const hovercraft::Tick whole = std::llround(steps);
+  if (whole < 1 || std::abs(steps - static_cast<double>(whole)) > kRateSlack * steps) {
+    return std::nullopt;
+  }
+  return whole;
+}
+
 hovercraft::Tick publishPeriod(const hovercraft::ConfigReader& reader, double step_size) {
   if (!reader.has("publish_rate")) {
     return std::max<hovercraft::Tick>(1, std::llround(1.0 / (kDefaultPublishRate * step_size)));
   }
   const double rate = reader.number("publish_rate", hovercraft::kPositive);
-  const double steps = 1.0 / (rate * step_size);
-  const hovercraft::Tick whole = std::llround(steps);
-  if (whole < 1 || std::abs(steps - static_cast<double>(whole)) > kRateSlack * steps) {
+  const auto steps = wholeSteps(1.0 / (rate * step_size));
+  if (!steps) {
     reader.fail("publish_rate",
                 fmt::format("must divide the step rate of {:.9g} Hz", 1.0 / step_size));
   }
-  return whole;
+  return *steps;
 }
 
-const hovercraft::NumberRule kRealTimeFactorRule = {
-    [](double factor) { return factor >= 0.0 && factor <= NodeConfig::kMaxRealTimeFactor; },
-    "must be 0 (as fast as it can) to 1000"};
+const hovercraft::NumberRule kClockRateRule = {[](double rate) {
+                                                 return rate >= NodeConfig::kMinClockRate &&
+                                                        rate <= NodeConfig::kMaxClockRate;
+                                               },
+                                               "must be 0.001 to 250 Hz"};
 
-const hovercraft::NumberRule kClockRateRule = {
-    [](double rate) { return rate > 0.0 && rate <= NodeConfig::kMaxClockRate; },
-    "must be greater than 0 and at most 250 Hz"};
+const hovercraft::NumberRule kDiagnosticPeriodRule = {
+    [](double period) {
+      return period >= NodeConfig::kMinDiagnosticPeriod &&
+             period <= NodeConfig::kMaxDiagnosticPeriod;
+    },
+    "must be 0.01 to 3600 s"};
 
 void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
   config.lockstep = reader.flagOr(config.lockstep, "lockstep");
@@ -47,16 +65,25 @@ void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
   config.control_period = config.publish_every;
   if (!reader.has("control_period")) return;
   const double step_size = config.scenario.stepSize();
-  const double steps = reader.number("control_period", hovercraft::kPositive) / step_size;
-  config.control_period = std::llround(steps);
-  if (config.control_period < 1 ||
-      std::abs(steps - static_cast<double>(config.control_period)) > kRateSlack * steps) {
+  const auto steps = wholeSteps(reader.number("control_period", hovercraft::kPositive) / step_size);
+  if (!steps) {
     reader.fail("control_period",
                 fmt::format("must be a whole number of steps of {:.9g} s", step_size));
   }
+  if (!config.lockstep) {
+    reader.fail("control_period", "has a meaning in lockstep only: set lockstep or leave it out");
+  }
+  config.control_period = *steps;
 }
 
 }  // namespace
+
+const char* const kRealTimeFactorRuleText = "must be 0 (as fast as it can) or 1e-6 to 1000";
+
+bool isRealTimeFactor(double factor) {
+  return factor == 0.0 ||
+         (factor >= NodeConfig::kMinRealTimeFactor && factor <= NodeConfig::kMaxRealTimeFactor);
+}
 
 NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name) {
   if (!parameters.IsMap() || !parameters["scenario"].IsDefined()) {
@@ -79,14 +106,14 @@ NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node
   if (config.world_frame.front() == '/') {
     reader.fail("world_frame", "must not begin with a slash (tf2)");
   }
-  config.real_time_factor =
-      reader.numberOr(config.real_time_factor, "real_time_factor", kRealTimeFactorRule);
+  config.real_time_factor = reader.numberOr(config.real_time_factor, "real_time_factor",
+                                            {isRealTimeFactor, kRealTimeFactorRuleText});
   config.paused = reader.flagOr(config.paused, "paused");
   config.clock = reader.flagOr(config.clock, "clock");
   config.clock_rate = reader.numberOr(config.clock_rate, "clock_rate", kClockRateRule);
   readLockstep(reader, config);
   config.diagnostic_period =
-      reader.numberOr(config.diagnostic_period, "diagnostic_period", hovercraft::kPositive);
+      reader.numberOr(config.diagnostic_period, "diagnostic_period", kDiagnosticPeriodRule);
   return config;
 }
 

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/node_services.h"
 
+#include <exception>
 #include <functional>
 #include <std_srvs/Trigger.h>
 #include <stdexcept>
@@ -27,11 +28,11 @@ ros::ServiceServer serve(
     std::function<void(const typename Service::Request&, typename Service::Response&)> answer) {
   const boost::function<bool(typename Service::Request&, typename Service::Response&)> callback =
       [&node, answer](typename Service::Request& request, typename Service::Response& response) {
-        node.catchUp();
         try {
+          node.catchUp();
           answer(request, response);
           response.success = 1;
-        } catch (const std::invalid_argument& error) {
+        } catch (const std::exception& error) {
           response.success = 0;
           response.message = error.what();
         }

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/pacer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hovercraft_sim/math/demand.h"
@@ -15,6 +16,10 @@ Pacer::Pacer(std::int64_t step_ns, double real_time_factor)
 void Pacer::restart(Tick tick, std::int64_t now_ns) {
   first_tick_ = tick;
   origin_ns_ = now_ns;
+}
+
+void Pacer::forgiveWait(Tick tick, std::int64_t now_ns) {
+  origin_ns_ += std::max<std::int64_t>(now_ns - deadline(tick) - kMaxBacklogNs / 2, 0);
 }
 
 std::int64_t Pacer::deadline(Tick tick) const {

@@ -14,9 +14,9 @@ T valueOf(const XmlRpc::XmlRpcValue& value) {
   return static_cast<T>(copy);
 }
 
-}  // namespace
-
-YAML::Node toYaml(const XmlRpc::XmlRpcValue& value) {
+/// @param path of the value within the source; empty at the top.
+YAML::Node treeOf(const XmlRpc::XmlRpcValue& value, const std::string& source,
+                  const std::string& path) {
   using XmlRpc::XmlRpcValue;
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
@@ -31,21 +31,31 @@ YAML::Node toYaml(const XmlRpc::XmlRpcValue& value) {
       YAML::Node sequence(YAML::NodeType::Sequence);
       for (int i = 0; i < value.size(); ++i) {
         XmlRpcValue copy = value;
-        sequence.push_back(toYaml(copy[i]));
+        sequence.push_back(treeOf(copy[i], source, fmt::format("{}[{}]", path, i)));
       }
       return sequence;
     }
     case XmlRpcValue::TypeStruct: {
       YAML::Node map(YAML::NodeType::Map);
       XmlRpcValue copy = value;
-      for (auto& member : copy) map[member.first] = toYaml(member.second);
+      const std::string prefix = path.empty() ? "" : path + ".";
+      for (auto& member : copy) {
+        map[member.first] = treeOf(member.second, source, prefix + member.first);
+      }
       return map;
     }
     case XmlRpcValue::TypeInvalid:
       return YAML::Node();
     default:
-      throw std::invalid_argument("a parameter of a scenario must be a number, text, list or map");
+      throw std::invalid_argument(fmt::format("{}{}{}: must be a number, text, list or map", source,
+                                              path.empty() ? "" : ": ", path));
   }
+}
+
+}  // namespace
+
+YAML::Node toYaml(const XmlRpc::XmlRpcValue& value, const std::string& source) {
+  return treeOf(value, source, "");
 }
 
 }  // namespace hovercraft_ros

@@ -115,13 +115,30 @@ void setMotion(const RunEvent& event, hovercraft::Simulation& simulation) {
   const std::size_t vehicle = vehicleIndex(simulation.scenario(), event.vehicle);
   const Vector3 p_WB = fromMessage(event.pose.position);
   const hovercraft::Quaternion q_WB = fromMessage(event.pose.orientation);
+  const hovercraft::Twist twist = {fromMessage(event.twist.linear),
+                                   fromMessage(event.twist.angular)};
+  const hovercraft::Motion motion = simulation.motionAfterSetting(vehicle, p_WB, q_WB, twist);
+  require(motion.momentum_W.allFinite() && motion.angular_momentum_W.allFinite() &&
+              std::isfinite(motion.energy) && std::isfinite(hovercraft::dot(p_WB, p_WB)),
+          "pose, twist: the momenta, the energy and the square of the distance from the origin "
+          "must be finite");
   if (const auto overlap = simulation.overlapAt(vehicle, p_WB, q_WB)) {
     throw std::invalid_argument(
         fmt::format("pose: {} and {} would overlap by {:.3g} m: must be apart", overlap->a,
                     overlap->b, overlap->depth));
   }
-  simulation.setMotion(vehicle, p_WB, q_WB,
-                       {fromMessage(event.twist.linear), fromMessage(event.twist.angular)});
+  simulation.setMotion(vehicle, p_WB, q_WB, twist);
+}
+
+void load(const RunEvent& event, hovercraft::Simulation& simulation) {
+  const auto state = hovercraft::parseSnapshot(event.snapshot, "snapshot", simulation.scenario());
+  // A live command takes effect at once, so none can stand before it that takes effect later.
+  for (const hovercraft::Command& command : state.commands.waiting()) {
+    require(command.tick == state.tick,
+            fmt::format("snapshot: commands: tick = {}: must be that of the snapshot, {}",
+                        command.tick, state.tick));
+  }
+  simulation.restore(state);
 }
 
 }  // namespace
@@ -133,7 +150,7 @@ void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
       simulation.reset(event.seed);
       return;
     case RunEvent::LOAD:
-      simulation.restore(hovercraft::parseSnapshot(event.snapshot, "snapshot", scenario));
+      load(event, simulation);
       return;
     case RunEvent::SET_STATE:
       setMotion(event, simulation);

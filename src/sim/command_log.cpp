@@ -1,5 +1,7 @@
 #include "hovercraft_sim/sim/command_log.h"
 
+#include <algorithm>
+
 #include "hovercraft_sim/math/demand.h"
 
 namespace hovercraft {
@@ -10,7 +12,23 @@ void CommandLog::push(const Command& command) {
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(next_));
     next_ = 0;
   }
+  dropReplacedBy(command);
   waiting_.push_back(command);
+}
+
+void CommandLog::dropReplacedBy(const Command& command) {
+  auto first = waiting_.end();  // those of one tick stand together
+  const auto taken = waiting_.begin() + static_cast<std::ptrdiff_t>(next_);
+  while (first != taken && (first - 1)->tick == command.tick) --first;
+  const auto is_replaced = [&command](const Command& earlier) {
+    return earlier.vehicle == command.vehicle &&
+           (earlier.engines & command.engines) == earlier.engines;
+  };
+  waiting_.erase(std::remove_if(first, waiting_.end(), is_replaced), waiting_.end());
+}
+
+std::vector<Command> CommandLog::waiting() const {
+  return {waiting_.begin() + static_cast<std::ptrdiff_t>(next_), waiting_.end()};
 }
 
 const Command* CommandLog::takeDue(Tick tick) {

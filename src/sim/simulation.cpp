@@ -65,8 +65,9 @@ Simulation::Simulation(Scenario scenario)
   }
   if (scenario_.world) {
     world_.emplace(worldOf(scenario_));
-    drives_.resize(world_->bodies().size());
   }
+  drives_.resize(world_ ? world_->bodies().size() : models_.size());
+  moving_.reserve(drives_.size());
   reset(scenario_.seed);
 }
 
@@ -84,7 +85,6 @@ void Simulation::reset(std::int64_t seed) {
     }
     partTouching(-1);
   }
-  commands_ = CommandLog();
 }
 
 void Simulation::restore(const SimulationState& state) {
@@ -92,7 +92,6 @@ void Simulation::restore(const SimulationState& state) {
              state.bodies.size() == (world_ ? scenario_.world->bodies.size() : 0),
          "a state must come from the same scenario");
   state_ = state;
-  commands_ = CommandLog();
 }
 
 void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
@@ -162,11 +161,11 @@ void Simulation::push(const Command& command) {
   demand(command.tick >= state_.tick, "a command must not lie in the past");
   demand(command.vehicle < state_.vehicles.size(), "a command must name a vehicle of the scenario");
   demand(command.thrusts.allFinite(), "a thrust must be checked before it becomes a command");
-  commands_.push(command);
+  state_.commands.push(command);
 }
 
 void Simulation::applyDueCommands() {
-  while (const Command* command = commands_.takeDue(state_.tick)) {
+  while (const Command* command = state_.commands.takeDue(state_.tick)) {
     EngineStates& engines = state_.vehicles[command->vehicle].engines;
     for (int i = 0; i < kEngineCount; ++i) {
       if ((command->engines & maskOf(static_cast<EngineId>(i))) == 0) continue;
@@ -178,21 +177,37 @@ void Simulation::applyDueCommands() {
   }
 }
 
-void Simulation::stepVehicle(std::size_t vehicle) {
-  VehicleState& state = state_.vehicles[vehicle];
-  const ThrustCourse thrusts = engine_dynamics_[vehicle].course(state.engines, state_.tick);
-  ExternalLoad load;
-  const bool is_pushed = sumWrenches(state_.wrenches, vehicle, load);
-  const DrivenHovercraft system = {models_[vehicle], thrusts, is_pushed ? &load : nullptr};
-  std::visit(
-      [&](auto& body) {
-        body = integrationStep(scenario_.integrator, body, system, h_);
-        if (!settle(body)) failAsDiverged("vehicles", scenario_.vehicles[vehicle].name);
-      },
-      state.body);
-  for (int i = 0; i < kEngineCount; ++i) {
-    state.engines[static_cast<std::size_t>(i)].thrust = thrusts.end[i];
+void Simulation::stepVehicles() {
+  moving_.clear();
+  for (std::size_t vehicle = 0; vehicle < state_.vehicles.size(); ++vehicle) {
+    const VehicleState& state = state_.vehicles[vehicle];
+    ThrustCourse& thrusts = drives_[vehicle].thrusts;
+    thrusts = engine_dynamics_[vehicle].course(state.engines, state_.tick);
+    ExternalLoad load;
+    const bool is_pushed = sumWrenches(state_.wrenches, vehicle, load);
+    const DrivenHovercraft system = {models_[vehicle], thrusts, is_pushed ? &load : nullptr};
+    std::visit(
+        [&](const auto& body) {
+          auto next = integrationStep(scenario_.integrator, body, system, h_);
+          if (!settle(next)) failAsDiverged("vehicles", scenario_.vehicles[vehicle].name);
+          moving_.push_back(next);
+        },
+        state.body);
   }
+  takeOver();
+}
+
+/// Makes what a step has led to the state.
+void Simulation::takeOver() {
+  const std::size_t count = state_.vehicles.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    state_.vehicles[i].body = moving_[i];
+    for (int k = 0; k < kEngineCount; ++k) {
+      state_.vehicles[i].engines[static_cast<std::size_t>(k)].thrust = drives_[i].thrusts.end[k];
+    }
+  }
+  std::copy(moving_.begin() + static_cast<std::ptrdiff_t>(count), moving_.end(),
+            state_.bodies.begin());
 }
 
 void Simulation::failAsDiverged(const char* kind, const std::string& name) const {
@@ -208,7 +223,7 @@ void Simulation::step() {
   if (world_) {
     stepWorld();
   } else {
-    for (std::size_t vehicle = 0; vehicle < state_.vehicles.size(); ++vehicle) stepVehicle(vehicle);
+    stepVehicles();
   }
   ++state_.tick;
   if (world_ && on_contact) report();
@@ -226,20 +241,15 @@ void Simulation::stepWorld() {
   }
   moving_.insert(moving_.end(), state_.bodies.begin(), state_.bodies.end());
   records_.clear();
-  world_->step(drives_, moving_, state_.contacts, records_);
+  contacts_ = state_.contacts;
+  world_->step(drives_, moving_, contacts_, records_);
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     if (!std::visit([](auto& body) { return settle(body); }, moving_[i])) {
       failAsDiverged(i < count ? "vehicles" : "world.bodies", world_->nameOf(static_cast<int>(i)));
     }
-    if (i >= count) {
-      state_.bodies[i - count] = moving_[i];
-      continue;
-    }
-    state_.vehicles[i].body = moving_[i];
-    for (int k = 0; k < kEngineCount; ++k) {
-      state_.vehicles[i].engines[static_cast<std::size_t>(k)].thrust = drives_[i].thrusts.end[k];
-    }
   }
+  takeOver();
+  state_.contacts.swap(contacts_);
 }
 
 /// Hands out what happened in the step that just ended.
@@ -288,6 +298,12 @@ Motion motionOf(const HovercraftModel& model, const BodyState& state) {
 
 Motion Simulation::motion(std::size_t vehicle) const {
   return motionOf(models_[vehicle], state_.vehicles[vehicle].body);
+}
+
+Motion Simulation::motionAfterSetting(std::size_t vehicle, const Vector3& p_WB,
+                                      const Quaternion& q_WB, const Twist& twist) const {
+  const HovercraftModel& model = models_.at(vehicle);
+  return motionOf(model, placed(p_WB, q_WB, twist, model.mobility));
 }
 
 Motion Simulation::bodyMotion(std::size_t body) const {

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
@@ -74,6 +75,12 @@ std::string wrenchText(const Scenario& scenario, const ExternalWrench& external)
                      text(external.wrench.force), text(external.wrench.torque), external.end_tick);
 }
 
+std::string commandText(const Scenario& scenario, const Command& command) {
+  return fmt::format("  - {{tick: {}, vehicle: {}, engines: {}, thrusts: {}}}\n", command.tick,
+                     scenario.vehicles[command.vehicle].name, static_cast<int>(command.engines),
+                     text(command.thrusts));
+}
+
 /// A contact by the indices of its bodies and features: these are of the same scenario.
 std::string contactText(const ContactMemory& contact) {
   const FeaturePair& f = contact.features;
@@ -131,12 +138,34 @@ VehicleState parseVehicle(const ConfigReader& reader, OrientationKind kind) {
   return state;
 }
 
-ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario) {
-  reader.allowOnly({"vehicle", "frame", "force", "torque", "end_tick"});
+std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenario) {
   std::vector<std::string> names;
   for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  return reader.choiceOr(0, "vehicle", names);
+}
+
+/// @param earliest the tick of the command before it, or of the snapshot.
+Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick earliest) {
+  reader.allowOnly({"tick", "vehicle", "engines", "thrusts"});
+  Command command;
+  command.tick = reader.wholeNumberOr(-1, "tick");
+  if (command.tick < earliest) {
+    reader.fail("tick", fmt::format("must be {} or greater, in ascending order", earliest));
+  }
+  command.vehicle = parseVehicleName(reader, scenario);
+  const std::int64_t engines = reader.wholeNumberOr(0, "engines");
+  if (engines < 1 || engines > kAllEngines) {
+    reader.fail("engines", "must be 1 to 7: the sum of rear 1, left 2, right 4");
+  }
+  command.engines = static_cast<EngineMask>(engines);
+  command.thrusts = reader.vector("thrusts");
+  return command;
+}
+
+ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario) {
+  reader.allowOnly({"vehicle", "frame", "force", "torque", "end_tick"});
   ExternalWrench external;
-  external.vehicle = reader.choiceOr(0, "vehicle", names);
+  external.vehicle = parseVehicleName(reader, scenario);
   external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", kFrameNames));
   external.wrench = {reader.vector("force"), reader.vector("torque")};
   external.end_tick = reader.wholeNumberOr(0, "end_tick");
@@ -161,6 +190,9 @@ std::string toSnapshot(const Simulation& simulation) {
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
   for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
+  const std::vector<Command> commands = state.commands.waiting();
+  if (!commands.empty()) yaml += "commands:\n";
+  for (const Command& command : commands) yaml += commandText(scenario, command);
   yaml += "scenario: |\n";
   std::istringstream lines(toYaml(scenario));
   for (std::string line; std::getline(lines, line);) yaml += "  " + line + "\n";
@@ -176,8 +208,8 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
     throw std::invalid_argument(fmt::format("{}: not YAML: {}", source, error.what()));
   }
   const ConfigReader reader(tree, source);
-  reader.allowOnly(
-      {"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts", "scenario"});
+  reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",
+                    "commands", "scenario"});
   if (reader.text("scenario") != toYaml(scenario)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }
@@ -205,6 +237,13 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
       state.contacts.push_back(parseContact(contact));
     }
   }
+  if (reader.has("commands")) {
+    Tick earliest = state.tick;
+    for (const ConfigReader& command : reader.list("commands")) {
+      state.commands.push(parseCommand(command, scenario, earliest));
+      earliest = state.commands.waiting().back().tick;
+    }
+  }
   Simulation check(scenario);
   check.restore(state);
   if (reader.text("hash") != fmt::format("{:016x}", check.hash())) {
@@ -226,6 +265,10 @@ void saveSnapshot(const Simulation& simulation, const std::string& path) {
 }
 
 std::string readSnapshotText(const std::string& path) {
+  std::error_code no_such_path;  // what is not there cannot be read either
+  if (std::filesystem::is_directory(path, no_such_path)) {
+    throw std::invalid_argument(path + ": cannot be read: it is a directory, must be a file");
+  }
   std::ifstream stream(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");

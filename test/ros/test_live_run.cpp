@@ -1,6 +1,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -103,6 +104,29 @@ TEST(LiveRun, LoadGoesOnFromTheSnapshotsTickWhileTimeGoesOn) {
   EXPECT_EQ(run.stamp(), ros::Time(0, 4000000));
 }
 
+TEST(LiveRun, ARenewedStampIsOneStepLater) {
+  LiveRun run(parsed(validScenario()), kEpoch);  // steps of 2 ms
+  advance(run, 3);
+  run.renewStamp();
+  EXPECT_EQ(run.stamp(), ros::Time(5, 8000000));
+  EXPECT_EQ(run.simulation().tick(), 3);
+  advance(run, 1);
+  EXPECT_EQ(run.stamp(), ros::Time(5, 10000000));
+}
+
+// A live command takes effect at the next step: it could not be queued behind a later one.
+TEST(LiveRun, ASnapshotWithCommandsOfLaterTicksIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  hovercraft::Simulation saved(scenario);
+  saved.push({0, 0, hovercraft::kAllEngines, Vector3::Zero()});
+  LiveRun run(scenario, kEpoch);
+  run.apply(loadEvent(hovercraft::toSnapshot(saved)));
+  EXPECT_TRUE(run.simulation().hasWaitingCommands());
+  saved.push({3, 0, hovercraft::kAllEngines, Vector3::Zero()});
+  EXPECT_EQ(refusal([&] { run.apply(loadEvent(hovercraft::toSnapshot(saved))); }),
+            "snapshot: commands: tick = 3: must be that of the snapshot, 0");
+}
+
 TEST(LiveRun, AnEventThatIsRefusedChangesNothing) {
   LiveRun run(parsed(validScenario()), kEpoch);
   advance(run, 10);
@@ -125,6 +149,25 @@ TEST(RunEvents, SetStateMovesBaseLinkToTheMotionThatWasAsked) {
   EXPECT_LT(hovercraft::norm(hull.p_WH - Vector3(1.0, 2.0, 3.0)), 1e-15);
   EXPECT_LT(hovercraft::norm(hull.v_WH_H - Vector3(0.5, -0.4, 0.0)), 1e-15);
   EXPECT_LT(hovercraft::norm(hull.w_WH_H - Vector3(0.0, 0.0, 0.9)), 1e-15);
+}
+
+// 5.5 kg at 1e200 m/s: the square is beyond a double.
+TEST(RunEvents, AMotionWithoutFiniteEnergyIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  LiveRun run(scenario, kEpoch);
+  const std::uint64_t before = run.simulation().hash();
+  const std::string complaint =
+      "pose, twist: the momenta, the energy and the square of the distance from the origin must be "
+      "finite";
+  std::vector<SetState::Request> absurd(4, stateRequest());
+  absurd[0].twist.linear.x = 1e200;
+  absurd[1].twist.angular.z = 1e200;
+  absurd[2].pose.position.y = 1e200;
+  absurd[3].twist.linear.y = 1.7e308;
+  for (const SetState::Request& request : absurd) {
+    EXPECT_EQ(refusal([&] { run.apply(setStateEvent(scenario, request)); }), complaint);
+  }
+  EXPECT_EQ(run.simulation().hash(), before);
 }
 
 TEST(RunEvents, SetStateIsRefusedByName) {

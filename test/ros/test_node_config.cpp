@@ -1,3 +1,5 @@
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -87,8 +89,8 @@ TEST(NodeConfig, StepsLongerThanTheDefaultPeriodArePublishedEachTime) {
 }
 
 TEST(NodeConfig, TheControlPeriodIsWholeSteps) {
-  EXPECT_EQ(configWith("{control_period: 0.002}").control_period, 1);
-  EXPECT_EQ(configWith("{control_period: 0.006}").control_period, 3);
+  EXPECT_EQ(configWith("{lockstep: true, control_period: 0.002}").control_period, 1);
+  EXPECT_EQ(configWith("{lockstep: true, control_period: 0.006}").control_period, 3);
   EXPECT_EQ(configWith("{publish_rate: 50}").control_period, 10) << "the publish period by default";
   EXPECT_EQ(complaintWith("{control_period: 0.003}"),
             "/sim: control_period = 0.003: must be a whole number of steps of 0.002 s");
@@ -96,6 +98,26 @@ TEST(NodeConfig, TheControlPeriodIsWholeSteps) {
             "/sim: control_period = 0.0005: must be a whole number of steps of 0.002 s");
   EXPECT_EQ(complaintWith("{control_period: -1}"),
             "/sim: control_period = -1: must be greater than 0");
+  EXPECT_EQ(complaintWith("{lockstep: true, control_period: 1e300}"),
+            "/sim: control_period = 1e300: must be a whole number of steps of 0.002 s");
+}
+
+TEST(NodeConfig, AControlPeriodWithoutLockstepIsAnError) {
+  EXPECT_EQ(
+      complaintWith("{control_period: 0.006}"),
+      "/sim: control_period = 0.006: has a meaning in lockstep only: set lockstep or leave it "
+      "out");
+}
+
+// The same rule holds when it is changed while the node runs.
+TEST(NodeConfig, ARealTimeFactorIsZeroOrWhatCanBeMeant) {
+  for (const double factor : {0.0, -0.0, 1e-6, 1.0, 1000.0}) {
+    EXPECT_TRUE(isRealTimeFactor(factor)) << factor;
+  }
+  for (const double factor :
+       {-1.0, 5e-324, 9e-7, 1000.1, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_FALSE(isRealTimeFactor(factor)) << factor;
+  }
 }
 
 TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
@@ -103,20 +125,24 @@ TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
             "/sim: world_frame = /map: must not begin with a slash (tf2)");
   EXPECT_EQ(complaintWith("{world_frame: ''}"), "/sim: world_frame: must be a text");
   EXPECT_EQ(complaintWith("{real_time_factor: -1}"),
-            "/sim: real_time_factor = -1: must be 0 (as fast as it can) to 1000");
+            "/sim: real_time_factor = -1: must be 0 (as fast as it can) or 1e-6 to 1000");
   EXPECT_EQ(complaintWith("{real_time_factor: 1001}"),
-            "/sim: real_time_factor = 1001: must be 0 (as fast as it can) to 1000");
+            "/sim: real_time_factor = 1001: must be 0 (as fast as it can) or 1e-6 to 1000");
   EXPECT_EQ(complaintWith("{paused: 1}"), "/sim: paused = 1: must be true or false");
   EXPECT_EQ(complaintWith("{clock: maybe}"), "/sim: clock = maybe: must be true or false");
-  EXPECT_EQ(complaintWith("{clock_rate: 251}"),
-            "/sim: clock_rate = 251: must be greater than 0 and at most 250 Hz");
-  EXPECT_EQ(complaintWith("{clock_rate: 0}"),
-            "/sim: clock_rate = 0: must be greater than 0 and at most 250 Hz");
+  EXPECT_EQ(complaintWith("{clock_rate: 251}"), "/sim: clock_rate = 251: must be 0.001 to 250 Hz");
+  EXPECT_EQ(complaintWith("{clock_rate: 0}"), "/sim: clock_rate = 0: must be 0.001 to 250 Hz");
+  EXPECT_EQ(complaintWith("{clock_rate: 1e-10}"),
+            "/sim: clock_rate = 1e-10: must be 0.001 to 250 Hz");
   EXPECT_EQ(complaintWith("{lockstep: 2}"), "/sim: lockstep = 2: must be true or false");
   EXPECT_EQ(complaintWith("{lockstep_timeout: 0}"),
             "/sim: lockstep_timeout = 0: must be greater than 0");
   EXPECT_EQ(complaintWith("{diagnostic_period: 0}"),
-            "/sim: diagnostic_period = 0: must be greater than 0");
+            "/sim: diagnostic_period = 0: must be 0.01 to 3600 s");
+  EXPECT_EQ(complaintWith("{diagnostic_period: 1e-12}"),
+            "/sim: diagnostic_period = 1e-12: must be 0.01 to 3600 s");
+  EXPECT_EQ(complaintWith("{diagnostic_period: 1e10}"),
+            "/sim: diagnostic_period = 1e10: must be 0.01 to 3600 s");
 }
 
 TEST(NodeConfig, AParameterThatNobodyKnowsIsAnError) {

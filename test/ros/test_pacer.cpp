@@ -66,6 +66,24 @@ TEST(Pacer, RestartForgetsTheBacklog) {
   EXPECT_EQ(pacer.deadline(501), kNow + 10 * Pacer::kMaxBacklogNs + kStepNs);
 }
 
+// A controller that took longer than can be caught up; the node is a little late itself then.
+TEST(Pacer, AWaitForSomeoneElseIsNotGivenUpByTheSimulation) {
+  Pacer pacer(kStepNs, 1.0);
+  pacer.restart(0, kNow);
+  const std::int64_t answered = kNow + 30 * Pacer::kMaxBacklogNs;
+  pacer.forgiveWait(0, answered);
+  EXPECT_EQ(pacer.giveUpBacklog(1, answered + Pacer::kMaxBacklogNs / 2), 0);
+  EXPECT_EQ(answered - pacer.deadline(0), Pacer::kMaxBacklogNs / 2);
+}
+
+TEST(Pacer, AShortWaitForSomeoneElseIsCaughtUp) {
+  Pacer pacer(kStepNs, 1.0);
+  pacer.restart(0, kNow);
+  pacer.forgiveWait(5, pacer.deadline(5) + Pacer::kMaxBacklogNs / 2);
+  pacer.forgiveWait(5, pacer.deadline(5) - kStepNs);
+  EXPECT_EQ(pacer.deadline(5), kNow + 5 * kStepNs);
+}
+
 TEST(Pacer, ANonPositiveStepOrFactorIsAMistakeOfTheCaller) {
   EXPECT_THROW(Pacer(0, 1.0), std::logic_error);
   EXPECT_THROW(Pacer(kStepNs, -1.0), std::logic_error);

@@ -17,23 +17,25 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
+constexpr const char* kSource = "/sim";
+
 TEST(Parameters, ADoubleKeepsEveryBit) {
   for (const double number : {0.1, 1.0 / 3.0, -2.5e-3, 1e22, 123456789.123456789, 5e-324, -0.0,
                               std::numeric_limits<double>::max(), std::nextafter(1.0, 2.0)}) {
-    const auto back = toYaml(XmlRpcValue(number)).as<double>();
+    const auto back = toYaml(XmlRpcValue(number), kSource).as<double>();
     EXPECT_EQ(back, number);
     EXPECT_EQ(std::signbit(back), std::signbit(number)) << number;
   }
 }
 
 TEST(Parameters, IntBoolAndTextStayWhatTheyAre) {
-  EXPECT_EQ(toYaml(XmlRpcValue(-2147483647)).Scalar(), "-2147483647");
-  EXPECT_EQ(toYaml(XmlRpcValue(0)).Scalar(), "0");
-  EXPECT_EQ(toYaml(XmlRpcValue(true)).Scalar(), "true");
-  EXPECT_EQ(toYaml(XmlRpcValue(false)).Scalar(), "false");
-  EXPECT_EQ(toYaml(XmlRpcValue("package://craft/hull: a.obj")).Scalar(),
+  EXPECT_EQ(toYaml(XmlRpcValue(-2147483647), kSource).Scalar(), "-2147483647");
+  EXPECT_EQ(toYaml(XmlRpcValue(0), kSource).Scalar(), "0");
+  EXPECT_EQ(toYaml(XmlRpcValue(true), kSource).Scalar(), "true");
+  EXPECT_EQ(toYaml(XmlRpcValue(false), kSource).Scalar(), "false");
+  EXPECT_EQ(toYaml(XmlRpcValue("package://craft/hull: a.obj"), kSource).Scalar(),
             "package://craft/hull: a.obj");
-  EXPECT_EQ(toYaml(XmlRpcValue("")).Scalar(), "");
+  EXPECT_EQ(toYaml(XmlRpcValue(""), kSource).Scalar(), "");
 }
 
 TEST(Parameters, ListsAndMapsKeepTheirShape) {
@@ -42,7 +44,7 @@ TEST(Parameters, ListsAndMapsKeepTheirShape) {
   value["list"][1] = 2;
   value["list"][2]["deep"] = "text";
   value["empty"].setSize(0);
-  const YAML::Node tree = toYaml(value);
+  const YAML::Node tree = toYaml(value, kSource);
   ASSERT_TRUE(tree.IsMap());
   ASSERT_EQ(tree.size(), 2U);
   ASSERT_TRUE(tree["list"].IsSequence());
@@ -55,20 +57,27 @@ TEST(Parameters, ListsAndMapsKeepTheirShape) {
 }
 
 TEST(Parameters, AParameterThatIsNotThereIsNull) {
-  EXPECT_TRUE(toYaml(XmlRpcValue()).IsNull());
+  EXPECT_TRUE(toYaml(XmlRpcValue(), kSource).IsNull());
 }
 
-TEST(Parameters, ATypeWithoutAPlaceInAScenarioIsRefused) {
+TEST(Parameters, ATypeWithoutAPlaceInAScenarioIsRefusedByItsKeyPath) {
   char bytes[] = {1, 2, 3};
   const XmlRpcValue binary(bytes, 3);
-  EXPECT_THROW(toYaml(binary), std::invalid_argument);
+  XmlRpcValue parameters;
+  parameters["scenario"]["list"][0] = 1.5;
+  parameters["scenario"]["list"][1] = binary;
+  const auto complaint = [](const XmlRpcValue& value) {
+    return hovercraft::testing::messageOf([&value] { toYaml(value, kSource); });
+  };
+  EXPECT_EQ(complaint(binary), "/sim: must be a number, text, list or map");
+  EXPECT_EQ(complaint(parameters), "/sim: scenario.list[1]: must be a number, text, list or map");
 }
 
 TEST(Parameters, TheValueIsNotChanged) {
   XmlRpcValue value;
   value["a"][0] = 0.25;
   const XmlRpcValue before = value;
-  toYaml(value);
+  toYaml(value, kSource);
   EXPECT_TRUE(value == before);
 }
 
@@ -84,7 +93,7 @@ void expectSameScenario(const YAML::Node& file) {
   const hovercraft::ScenarioSource source = {"test", "", {}};
   const hovercraft::Scenario from_file = hovercraft::parseScenario(file, source);
   const hovercraft::Scenario from_server =
-      hovercraft::parseScenario(toYaml(testing::loadedByRosparam(file)), source);
+      hovercraft::parseScenario(toYaml(testing::loadedByRosparam(file), kSource), source);
   EXPECT_EQ(hovercraft::toYaml(from_server), hovercraft::toYaml(from_file));
   EXPECT_EQ(flightHash(from_server), flightHash(from_file));
 }

@@ -3,19 +3,22 @@
 
 import math
 import os
+import signal
+import subprocess
 import tempfile
+import threading
 import unittest
 
 import rospy
 import rostest
 import tf2_ros
 from geometry_msgs.msg import Pose, Twist, Wrench
-from hovercraft_sim.msg import State
+from hovercraft_sim.msg import State, ThrustCommand
 from hovercraft_sim.srv import ApplyWrench, Reset, SetState, Snapshot, Step
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from ros_waiting import service, wait_until
+from ros_waiting import DEADLINE, service, wait_until
 
 STEP_NS = 1000000
 RESETS = 50
@@ -72,7 +75,14 @@ class ControlTest(unittest.TestCase):
         self.assertFalse(answer.success)
         self.assertIn('pose.position: must be finite', answer.message)
         self.assertFalse(service('set_state', SetState)('nobody', Pose(), twist).success)
+        pose.position.x, twist.linear.x = 0.0, 1e200
+        answer = service('set_state', SetState)('hovercraft', pose, twist)
+        self.assertFalse(answer.success)
+        self.assertIn('must be finite', answer.message)
         self.assertFalse(service('load', Snapshot)('/no/such/file').success)
+        answer = service('load', Snapshot)('/')
+        self.assertFalse(answer.success)
+        self.assertIn('is a directory', answer.message)
         self.assertFalse(service('save', Snapshot)('/no/such/folder/file').success)
         self.assertEqual(self.step(0).hash, before)
 
@@ -89,6 +99,90 @@ class ControlTest(unittest.TestCase):
         self.assertEqual((states[-1].pose.position.x, states[-1].pose.position.y), (3.0, -2.0))
         self.assertAlmostEqual(states[-1].pose.orientation.z, math.sin(0.5), places=15)
         subscriber.unregister()
+
+    def test_a_wrench_acts_in_the_axes_that_are_named(self):
+        """From rest, in one step: momentum = force times step size, but for the drag of that step."""
+        pose = Pose()
+        pose.orientation.z = pose.orientation.w = math.sqrt(0.5)  # the bow points along y
+        wrench = Wrench()
+        wrench.force.x = 2.0
+        step_size = 1e-9 * STEP_NS
+        for frame, direction in (('world', (1.0, 0.0)), ('hovercraft/base_link', (0.0, 1.0))):
+            self.assertTrue(self.reset().success)
+            self.assertTrue(service('set_state', SetState)('hovercraft', pose, Twist()).success)
+            answer = service('apply_wrench', ApplyWrench)(
+                vehicle='hovercraft', wrench=wrench, frame_id=frame, duration=rospy.Duration(step_size))
+            self.assertEqual((answer.tick, answer.end_tick), (0, 1))
+            momentum = self.state_after(10).momentum  # it acts in the first of these, drag in each
+            for component, part in zip((momentum.x, momentum.y), direction):
+                self.assertAlmostEqual(component, part * wrench.force.x * step_size, delta=0.01 * wrench.force.x * step_size)
+
+    def state_after(self, steps):
+        states = []
+        subscriber = rospy.Subscriber('/hovercraft/state', State, states.append, queue_size=1000)
+        wait_until(lambda: subscriber.get_num_connections() > 0, 'the state topic')
+        done = self.step(steps)
+        wait_until(lambda: states and (states[-1].episode, states[-1].tick) == (done.episode, done.tick), 'the state')
+        subscriber.unregister()
+        return states[-1]
+
+    def test_a_step_that_diverges_is_answered_and_leaves_the_last_good_state(self):
+        self.step(10)
+        wrench = Wrench()
+        wrench.force.x = 1.5e308  # twice that is beyond a double
+        for _ in range(2):
+            self.assertTrue(service('apply_wrench', ApplyWrench)(
+                vehicle='hovercraft', wrench=wrench, frame_id='world', duration=rospy.Duration(1)).success)
+        before = self.step(0)
+        answer = self.step(5)
+        self.assertFalse(answer.success)
+        self.assertIn('the motion diverges', answer.message)
+        after = self.step(0)
+        self.assertEqual((after.tick, after.hash), (before.tick, before.hash))
+        self.assertTrue(self.reset().success)
+        self.assertTrue(self.step(5).success)
+
+    def test_commands_that_wait_are_saved_and_come_back(self):
+        publisher = rospy.Publisher('/hovercraft/thrust', ThrustCommand, queue_size=10)
+        wait_until(lambda: publisher.get_num_connections() > 0, 'the thrust topic')
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, 'snapshot.yaml')
+
+            def waits():
+                self.assertTrue(service('save', Snapshot)(file).success)
+                with open(file) as snapshot:
+                    return snapshot.read().count('engines: 7, thrusts')
+
+            for _ in range(20):
+                publisher.publish(ThrustCommand(rear=2.0, left=0.3))
+            wait_until(lambda: waits() > 0, 'a command that waits')
+            self.assertEqual(waits(), 1)  # the last one
+            unbroken = self.step(100)
+            self.assertTrue(service('load', Snapshot)(file).success)
+            self.assertEqual(self.step(100).hash, unbroken.hash)
+        publisher.unregister()
+
+    def test_a_long_step_ends_when_the_node_is_shut_down(self):
+        rospy.set_param('/doomed/hovercraft_sim/scenario', rospy.get_param('/hovercraft_sim/scenario'))
+        rospy.set_param('/doomed/hovercraft_sim/paused', True)
+        node = subprocess.Popen(['rosrun', 'hovercraft_sim', 'hovercraft_node', '__ns:=/doomed'])
+        states, answers = [], []
+        subscriber = rospy.Subscriber('/doomed/hovercraft/state', State, states.append)
+        try:
+            rospy.wait_for_service('/doomed/hovercraft_sim/step', timeout=DEADLINE)
+            step = rospy.ServiceProxy('/doomed/hovercraft_sim/step', Step)
+            caller = threading.Thread(target=lambda: answers.append(step(3600000)))
+            caller.start()
+            wait_until(lambda: states, 'the first of the steps')
+            node.send_signal(signal.SIGINT)
+            caller.join(DEADLINE)
+            node.wait(DEADLINE)
+        finally:
+            node.kill()
+            subscriber.unregister()
+        self.assertEqual(len(answers), 1, 'no answer')
+        self.assertFalse(answers[0].success)
+        self.assertRegex(answers[0].message, r'the node shuts down after \d+ of 3600000 steps')
 
     def test_stepping_a_simulation_that_runs_is_refused(self):
         self.assertTrue(self.resume().success)

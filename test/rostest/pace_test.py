@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """The node sleeps through steps that nobody can see; whoever acts on it finds it where its pace has it by then."""
 
+import math
 import time
 import unittest
 
+import dynamic_reconfigure.client
 import rospy
 import rostest
 from hovercraft_sim.msg import AppliedCommand, Telemetry
@@ -11,9 +13,10 @@ from hovercraft_sim.srv import Step
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from ros_waiting import service, wait_until
+from ros_waiting import DEADLINE, service, wait_until
 
 STEP = 0.001       # s
+FAR = 10 * DEADLINE / STEP  # ticks that would take ten times as long as anyone waits, at a pace of 1
 COMMANDS = 60
 PAUSES = 5
 # s, no multiple of the period between two states: nothing is waited for, it is when the next request comes that counts.
@@ -22,7 +25,7 @@ ODD_WAIT = 0.0137
 
 class PaceTest(unittest.TestCase):
     def setUp(self):
-        self.given_up, self.reports = 0.0, 0
+        self.given_up, self.reports, self.ticks, self.wanted = 0.0, 0, [], None
         self.telemetry = rospy.Subscriber('/hovercraft_sim/telemetry', Telemetry, self.on_telemetry)
         self.pause, self.resume = service('pause', Trigger), service('resume', Trigger)
         self.step = service('step', Step)
@@ -34,6 +37,8 @@ class PaceTest(unittest.TestCase):
 
     def on_telemetry(self, report):
         self.given_up += report.time_given_up
+        self.ticks.append(report.tick)
+        self.wanted = report.wanted_real_time_factor
         self.reports += 1
 
     def wait_for_report(self):
@@ -81,7 +86,43 @@ class PaceTest(unittest.TestCase):
             self.assertTrue(self.pause().success)
             self.expect_no_time_before([(due(self.step(0).tick), begin)])
 
+    def set_pace(self, factor):
+        """What the node answers."""
+        return PACE.update_configuration({'real_time_factor': factor})['real_time_factor']
+
+    def test_a_parameter_that_came_as_text_is_the_pace_at_the_start(self):
+        self.assertEqual(INITIAL_PACE, 10.0)
+        self.assertEqual(rospy.get_param('/hovercraft_sim/real_time_factor'), 1.0, 'what was set last')
+
+    def test_dynamic_reconfigure_changes_the_pace(self):
+        self.assertTrue(self.resume().success)
+        try:
+            self.assertEqual(self.set_pace(0.0), 0.0)
+            begin = self.ticks[-1]
+            wait_until(lambda: self.ticks[-1] > begin + FAR, 'a run as fast as it can')
+            self.assertEqual(self.set_pace(1e-6), 1e-6)
+            self.wait_for_report()
+            begin, seen = self.ticks[-1], self.reports
+            wait_until(lambda: self.reports > seen + 2, 'reports')
+            self.assertLessEqual(self.ticks[-1], begin + 1, 'a step takes a thousand seconds')
+            self.assertEqual(self.wanted, 1e-6)
+        finally:
+            self.set_pace(1.0)
+
+    def test_a_pace_that_cannot_be_meant_is_refused_and_the_old_one_kept(self):
+        self.assertEqual(self.set_pace(4.0), 4.0)
+        try:
+            self.assertEqual(self.set_pace(math.nan), 4.0)
+            self.assertEqual(self.set_pace(1e-9), 4.0)
+            self.wait_for_report()
+            self.assertEqual(self.wanted, 4.0)
+        finally:
+            self.set_pace(1.0)
+
 
 if __name__ == '__main__':
     rospy.init_node('pace_test')
+    PACE = dynamic_reconfigure.client.Client('/hovercraft_sim', timeout=DEADLINE)
+    INITIAL_PACE = PACE.get_configuration(timeout=DEADLINE)['real_time_factor']
+    PACE.update_configuration({'real_time_factor': 1.0})
     rostest.rosrun('hovercraft_sim', 'pace', PaceTest)

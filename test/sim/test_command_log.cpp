@@ -1,4 +1,6 @@
+#include <cstddef>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +14,20 @@ Command at(Tick tick, double thrust) {
   command.tick = tick;
   command.thrusts = {thrust, 0.0, 0.0};
   return command;
+}
+
+Command of(std::size_t vehicle, EngineMask engines, double thrust) {
+  Command command = at(5, thrust);
+  command.vehicle = vehicle;
+  command.engines = engines;
+  return command;
+}
+
+/// The thrusts of the commands that wait.
+std::vector<double> waitingIn(const CommandLog& log) {
+  std::vector<double> thrusts;
+  for (const Command& command : log.waiting()) thrusts.push_back(command.thrusts.x());
+  return thrusts;
 }
 
 double thrustOf(const Command* command) {
@@ -44,13 +60,45 @@ TEST(CommandLog, ALateQuestionStillGetsTheCommand) {
 
 TEST(CommandLog, CommandsOfOneTickComeInTheOrderTheyWereGiven) {
   CommandLog log;
-  log.push(at(5, 1.0));
-  log.push(at(5, 2.0));
+  log.push(of(1, kAllEngines, 1.0));
+  log.push(of(0, kAllEngines, 2.0));
   log.push(at(6, 3.0));
   EXPECT_EQ(thrustOf(log.takeDue(5)), 1.0);
   EXPECT_EQ(thrustOf(log.takeDue(5)), 2.0);
   EXPECT_EQ(log.takeDue(5), nullptr);
   EXPECT_EQ(thrustOf(log.takeDue(6)), 3.0);
+}
+
+TEST(CommandLog, DropsWhatALaterCommandReplacesForAllItsEngines) {
+  CommandLog log;
+  log.push(at(4, 0.0));               // another tick
+  log.push(of(0, kAllEngines, 1.0));  // the left engine's command leaves two engines of it
+  log.push(of(1, kAllEngines, 2.0));  // another craft
+  log.push(of(0, maskOf(EngineId::kLeft), 3.0));
+  log.push(of(0, maskOf(EngineId::kRear), 4.0));
+  EXPECT_EQ(waitingIn(log), (std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0}));
+  log.push(of(0, maskOf(EngineId::kLeft), 5.0));
+  EXPECT_EQ(waitingIn(log), (std::vector<double>{0.0, 1.0, 2.0, 4.0, 5.0}));
+  log.push(of(0, kAllEngines, 6.0));
+  EXPECT_EQ(waitingIn(log), (std::vector<double>{0.0, 2.0, 6.0}));
+}
+
+// A paused simulation to which somebody goes on sending.
+TEST(CommandLog, ManyCommandsOfOneTickTakeBoundedMemory) {
+  CommandLog log;
+  for (int i = 0; i < 100000; ++i) {
+    log.push(of(static_cast<std::size_t>(i % 2), static_cast<EngineMask>(1 + i % 7), 1.0));
+  }
+  EXPECT_LE(log.waiting().size(), 2U * 7U);
+}
+
+TEST(CommandLog, WhatWasTakenNoLongerWaitsAndIsNotReplaced) {
+  CommandLog log;
+  log.push(at(5, 1.0));
+  EXPECT_EQ(thrustOf(log.takeDue(5)), 1.0);
+  log.push(at(5, 2.0));
+  EXPECT_EQ(waitingIn(log), (std::vector<double>{2.0}));
+  EXPECT_EQ(thrustOf(log.takeDue(5)), 2.0);
 }
 
 TEST(CommandLog, ACommandBeforeTheLastOneIsOurOwnMistake) {

@@ -324,6 +324,41 @@ TEST(Simulation, WhatDivergesIsNamed) {
   }
 }
 
+/// Steps, which must fail, and says whether the state is that before.
+bool keepsItsStateInAStepThatDiverges(Simulation& simulation) {
+  const std::uint64_t before = simulation.hash();
+  EXPECT_THROW(simulation.step(), std::runtime_error);
+  return simulation.hash() == before;
+}
+
+// Two forces whose sum is beyond a double.
+void pushBeyondAllBounds(Simulation& simulation, std::size_t vehicle) {
+  const Wrench wrench = {Vector3::Constant(1.5e308), Vector3::Zero()};
+  for (int i = 0; i < 2; ++i) {
+    simulation.applyWrench({vehicle, ExternalWrench::Frame::kWorld, wrench, 1000});
+  }
+}
+
+TEST(Simulation, AStepThatDivergesLeavesTheStateBeforeIt) {
+  Scenario scenario = parsed(validScenario());
+  scenario.vehicles.push_back(scenario.vehicles[0]);
+  scenario.vehicles[1].name = "beta";
+  for (const std::size_t vehicle : {0U, 1U}) {
+    Simulation simulation(scenario);
+    for (int n = 0; n < 10; ++n) simulation.step();
+    pushBeyondAllBounds(simulation, vehicle);
+    EXPECT_TRUE(keepsItsStateInAStepThatDiverges(simulation)) << vehicle;
+  }
+}
+
+// The world has moved what touches by then, and the contacts with it.
+TEST(Simulation, AStepOfAWorldThatDivergesLeavesTheStateBeforeIt) {
+  Simulation simulation(loadScenario("config/tumble.yaml"));
+  while (simulation.state().contacts.empty()) simulation.step();
+  pushBeyondAllBounds(simulation, simulation.scenario().vehicles.size() - 1);
+  EXPECT_TRUE(keepsItsStateInAStepThatDiverges(simulation));
+}
+
 // exp(-d t / m): linear drag alone would bring a momentum to the denormal numbers after 745 times
 // m / d, and keep it there.
 TEST(Simulation, WhatDragLeavesOfAMomentumEndsAsZero) {

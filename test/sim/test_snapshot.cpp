@@ -11,6 +11,7 @@
 namespace hovercraft {
 namespace {
 
+using testing::messageOf;
 using testing::parsed;
 using testing::validScenario;
 using testing::with;
@@ -71,6 +72,49 @@ TEST(Snapshot, FilesThatCannotBeUsedAreNamed) {
   const Simulation simulation(parsed(validScenario()));
   EXPECT_THROW(saveSnapshot(simulation, "/no/such/folder/snap.yaml"), std::invalid_argument);
   EXPECT_THROW(readSnapshotText("/no/such/folder/snap.yaml"), std::invalid_argument);
+}
+
+// Commands that came while the simulation was paused: they are part of what determines the future.
+TEST(Snapshot, CommandsThatWaitComeBack) {
+  const Scenario scenario = parsed(validScenario());
+  Simulation unbroken = underWay(scenario);
+  const Tick tick = unbroken.tick();
+  unbroken.push({tick, 0, kAllEngines, {3.0, 0.1, 1.0 / 3.0}});
+  unbroken.push({tick, 0, maskOf(EngineId::kLeft), {0.0, 1.2, 0.0}});
+  unbroken.push({tick + 7, 0, kAllEngines, {0.5, 0.5, 0.5}});
+  Simulation resumed(scenario);
+  resumed.restore(parseSnapshot(toSnapshot(unbroken), "snap.yaml", scenario));
+  EXPECT_EQ(resumed.state().commands.waiting().size(), 3U);
+  for (int n = 0; n < 20; ++n) {
+    unbroken.step();
+    resumed.step();
+    ASSERT_EQ(resumed.hash(), unbroken.hash()) << n;
+  }
+}
+
+TEST(Snapshot, ACommandThatCannotWaitIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  Simulation simulation = underWay(scenario);  // at tick 350
+  simulation.push({350, 0, kAllEngines, {1.0, 1.0, 1.0}});
+  const std::string text = toSnapshot(simulation);
+  const std::string command = "tick: 350, vehicle: alpha, engines: 7, thrusts: [1, 1, 1]";
+  const auto complaint = [&](const char* changed) {
+    return complaintAbout(with(text, command, changed), scenario);
+  };
+  EXPECT_EQ(complaint("tick: 349, vehicle: alpha, engines: 7, thrusts: [1, 1, 1]"),
+            "snap.yaml: commands[0].tick = 349: must be 350 or greater, in ascending order");
+  EXPECT_EQ(complaint("tick: 350, vehicle: alpha, engines: 8, thrusts: [1, 1, 1]"),
+            "snap.yaml: commands[0].engines = 8: must be 1 to 7: the sum of rear 1, left 2, right "
+            "4");
+  EXPECT_EQ(complaint("tick: 350, vehicle: beta, engines: 7, thrusts: [1, 1, 1]"),
+            "snap.yaml: commands[0].vehicle = beta: must be one of: alpha");
+  EXPECT_EQ(complaint("tick: 350, vehicle: alpha, engines: 7, thrusts: [1, .nan, 1]"),
+            "snap.yaml: commands[0].thrusts = [1, .nan, 1]: must be finite");
+}
+
+TEST(Snapshot, AFolderIsNoFile) {
+  EXPECT_EQ(messageOf([] { readSnapshotText("test/data"); }),
+            "test/data: cannot be read: it is a directory, must be a file");
 }
 
 TEST(Snapshot, OneOfAnotherScenarioIsRefused) {

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
-#include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <ros/time.h>
 
 namespace hovercraft_ros {
@@ -13,17 +12,17 @@ namespace hovercraft_ros {
 /// takes for "no time".
 class ClockSource {
  public:
-  /// @param rate Hz of simulated time.
-  ClockSource(ros::NodeHandle handle, double rate);
+  /// @param publish sends a time on /clock. @param rate Hz of simulated time, checked.
+  ClockSource(std::function<void(const ros::Time&)> publish, double rate);
 
-  /// @param is_idle the simulation waits: whoever sleeps on simulated time must see where it
-  /// stands.
+  /// @param now_ns reading of a steady clock. @param is_idle the simulation waits: whoever sleeps
+  /// on simulated time must see where it stands.
   void publishIfDue(const ros::Time& stamp, std::int64_t now_ns, bool is_idle);
   /// Simulated time from `stamp` until the next message, ns; 0 or less: it is due.
   std::int64_t untilDueNs(const ros::Time& stamp) const;
 
  private:
-  ros::Publisher publisher_;
+  std::function<void(const ros::Time&)> publish_;
   std::int64_t period_ns_;
   ros::Time last_stamp_;
   std::int64_t last_wall_ns_ = 0;

@@ -52,9 +52,10 @@ class HovercraftNode {
   bool isPaused() const { return paused_; }
   const NodeConfig& config() const { return config_; }
   const LiveRun& liveRun() const { return run_; }
-  /// @param real_time_factor 0 or greater; 0: as fast as it can.
-  void setRealTimeFactor(double real_time_factor);
-  /// Steps now, whatever the pace.
+  /// @param wanted one that breaks isRealTimeFactor() is refused with a warning.
+  /// @returns the factor that the node has now.
+  double changeRealTimeFactor(double wanted);
+  /// Steps now, whatever the pace. @throws std::runtime_error if the node is shut down meanwhile.
   void stepPaused(std::uint32_t steps);
   /// Applies and publishes an event. @throws std::invalid_argument as applyEvent(); nothing has
   /// changed then.
@@ -62,6 +63,7 @@ class HovercraftNode {
 
  private:
   void publishConstants();
+  void setRealTimeFactor(double real_time_factor);
   void restartPace();
   bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
   const char* take(hovercraft::Command command, const std::optional<ros::Time>& stamp);
@@ -70,6 +72,7 @@ class HovercraftNode {
   void advance();
   bool isStepDue(std::int64_t now_ns) const;
   void stepOnce();
+  void awaitCommands();
   void publishState();
   void noticeSilence(std::int64_t now_ns);
   void report();
@@ -93,6 +96,7 @@ class HovercraftNode {
   PaceReport pace_;
   hovercraft_sim::Telemetry telemetry_message_;
   std::int64_t waiting_since_ns_ = 0;  // for the commands of a lockstep period
+  std::int64_t answered_ns_ = 0;       // when the last of them came
   WarningLimiter behind_warnings_;
   WarningLimiter silence_warnings_;
   std::vector<std::uint64_t> reported_drops_;

@@ -36,6 +36,10 @@ class LiveRun {
   /// @throws std::invalid_argument as applyEvent(); nothing has changed then.
   hovercraft_sim::RunEvent apply(hovercraft_sim::RunEvent event);
 
+  /// Lets ROS time go on by one step while the simulation stands: a stamp of its own for the
+  /// current tick, where the one before has been published.
+  void renewStamp() { epoch_ns_ += simulation_.scenario().step_ns; }
+
  private:
   hovercraft::Simulation simulation_;
   std::int64_t epoch_ns_;  // of tick 0 of this episode; below 0 after a load of a long run

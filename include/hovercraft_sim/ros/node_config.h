@@ -24,14 +24,23 @@ struct NodeConfig {
 
   static constexpr double kMaxRealTimeFactor =
       1000.0;  // that of dynamic_reconfigure (cfg/Pace.cfg)
+  // A smaller factor than this, which takes days for a second, is a slip; 0 means something else.
+  static constexpr double kMinRealTimeFactor = 1e-6;
+  static constexpr double kMinClockRate = 0.001;  // Hz: seldom enough for anyone
   static constexpr double kMaxClockRate =
       250.0;  // Hz: each message costs every Python node some CPU
+  static constexpr double kMinDiagnosticPeriod = 0.01;    // s: a report costs more than a step
+  static constexpr double kMaxDiagnosticPeriod = 3600.0;  // s
 };
+
+/// A real-time factor that a run can have: 0, or kMinRealTimeFactor to kMaxRealTimeFactor.
+bool isRealTimeFactor(double factor);
+extern const char* const kRealTimeFactorRuleText;
 
 /// @param parameters the node's private namespace as a tree: `scenario` (design: scenario file),
 /// `publish_rate` in Hz (a divisor of the step rate; default the nearest to 100),
-/// `control_period` in s (a multiple of the step size; default the publish period), and what the
-/// other members of NodeConfig are called.
+/// `control_period` in s (a multiple of the step size; default the publish period; an error without
+/// `lockstep`), and what the other members of NodeConfig are called.
 /// @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
 NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name);

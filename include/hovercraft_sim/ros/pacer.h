@@ -25,6 +25,10 @@ class Pacer {
   /// Begins anew: `tick` is reached at `now_ns`.
   void restart(Tick tick, std::int64_t now_ns);
 
+  /// Someone else, a controller, kept the simulation at `tick` until `now_ns`: backlog beyond half
+  /// the bound is let go, so that what giveUpBacklog() finds next is the simulation's own.
+  void forgiveWait(Tick tick, std::int64_t now_ns);
+
   /// When the simulation should have reached `tick`, ns.
   std::int64_t deadline(Tick tick) const;
 

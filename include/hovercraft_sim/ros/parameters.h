@@ -1,6 +1,7 @@
 #pragma once
 
 #include <XmlRpcValue.h>
+#include <string>
 #include <yaml-cpp/yaml.h>
 
 namespace hovercraft_ros {
@@ -8,7 +9,9 @@ namespace hovercraft_ros {
 /// A value of the parameter server as the tree that a scenario file is parsed into: numbers keep
 /// every bit (17 digits), so that a scenario loaded by <rosparam> and one read from its file are
 /// the same.
-/// @throws std::invalid_argument for a type that has no place in a scenario (binary, date).
-YAML::Node toYaml(const XmlRpc::XmlRpcValue& value);
+/// @param source name of the parameter, the beginning of an error.
+/// @throws std::invalid_argument with the key path for a type that has no place in a scenario
+/// (binary, date).
+YAML::Node toYaml(const XmlRpc::XmlRpcValue& value, const std::string& source);
 
 }  // namespace hovercraft_ros

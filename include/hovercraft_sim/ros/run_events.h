@@ -36,8 +36,8 @@ hovercraft_sim::RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
                                           const std::string& world_frame, hovercraft::Tick tick);
 
 /// Changes the simulation as the event says, at its current tick.
-/// @throws std::invalid_argument if a snapshot does not fit the scenario or an event is of no known
-/// kind.
+/// @throws std::invalid_argument if a snapshot does not fit the scenario, a motion has momenta or
+/// an energy that are not finite, or an event is of no known kind.
 void applyEvent(const hovercraft_sim::RunEvent& event, hovercraft::Simulation& simulation);
 
 }  // namespace hovercraft_ros

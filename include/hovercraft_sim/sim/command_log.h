@@ -27,7 +27,8 @@ struct Command {
 };
 
 /// Commands that wait for their tick, in the order of ticks; of one tick, in the order in which
-/// they came.
+/// they came. One that a later command of its tick replaces for all its engines has no effect on
+/// any state and does not wait: what comes without a step in between takes bounded memory.
 class CommandLog {
  public:
   /// @param command its tick is not before that of the last one pushed.
@@ -37,8 +38,12 @@ class CommandLog {
   const Command* takeDue(Tick tick);
 
   bool empty() const { return next_ == waiting_.size(); }
+  /// Those that takeDue() has not given yet, in their order.
+  std::vector<Command> waiting() const;
 
  private:
+  void dropReplacedBy(const Command& command);
+
   std::vector<Command>
       waiting_;  // the memory is kept from step to step: nothing is allocated once it has grown
   std::size_t next_ = 0;

@@ -34,7 +34,8 @@ struct ExternalWrench {
   Tick end_tick = 0;  // it acts in the steps that begin before this tick
 };
 
-/// Everything that determines the future of a run, besides the scenario and the commands to come.
+/// Everything that determines the future of a run, besides the scenario and what is still to be
+/// pushed.
 struct SimulationState {
   Tick tick = 0;
   std::int64_t seed = 1;
@@ -42,6 +43,7 @@ struct SimulationState {
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
   std::vector<BodyState> bodies;         // loose ones, in the order of the scenario
   std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
+  CommandLog commands;                   // that have not taken effect
 };
 
 /// A contact as it is reported: once, in the step in which it happened.
@@ -85,7 +87,7 @@ class Simulation {
 
   /// Queues a command; one whose tick has passed is a mistake of the caller.
   void push(const Command& command);
-  bool hasWaitingCommands() const { return !commands_.empty(); }
+  bool hasWaitingCommands() const { return !state_.commands.empty(); }
 
   /// Puts a craft somewhere else, with other velocities: from the current tick on. Its engines stay
   /// as they are.
@@ -93,6 +95,10 @@ class Simulation {
   /// possible in the scenario's model (the caller has checked).
   void setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                  const Twist& twist);
+
+  /// What motion() would say after setMotion() with the same arguments.
+  Motion motionAfterSetting(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
+                            const Twist& twist) const;
 
   /// The body that a craft would overlap there by more than the tolerance, or be squeezed against
   /// so that no gap can be made; none without a world.
@@ -106,13 +112,14 @@ class Simulation {
   /// run.
   void reset(std::int64_t seed);
 
-  /// Goes on from a state of the same scenario, at its tick; commands that waited are dropped.
+  /// Goes on from a state of the same scenario, at its tick; commands that waited give way to its.
   void restore(const SimulationState& state);
   const SimulationState& state() const { return state_; }
 
   /// Applies the commands that are due and moves every craft from tick n to n + 1.
-  /// @throws std::runtime_error that names the craft if its state is not finite afterwards: the
-  /// step is too long for the forces.
+  /// @throws std::runtime_error that names the craft if its state would not be finite afterwards:
+  /// the step is too long for the forces. The tick, every motion, thrust and contact are then those
+  /// before the step; the commands that were due have taken effect.
   void step();
 
   const Scenario& scenario() const { return scenario_; }
@@ -142,10 +149,11 @@ class Simulation {
 
  private:
   void applyDueCommands();
-  void stepVehicle(std::size_t vehicle);
+  void stepVehicles();
   [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
   void stepWorld();
+  void takeOver();
   void report();
   BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
                    const Mobility& mobility) const;
@@ -156,10 +164,11 @@ class Simulation {
   std::vector<HovercraftModel> models_;
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;
-  CommandLog commands_;
   std::optional<World> world_;
-  std::vector<BodyState> moving_;  // of a step: vehicles, then loose bodies
+  // Of a step, until all of it is known to be sound: vehicles, then loose bodies.
+  std::vector<BodyState> moving_;
   std::vector<BodyDrive> drives_;
+  std::vector<ContactMemory> contacts_;
   std::vector<ContactRecord> records_;
 };
 

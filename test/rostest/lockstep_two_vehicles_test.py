@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""Two craft in lockstep: the node waits for both, and whose command comes first does not matter."""
+
+import threading
+import unittest
+
+import rospy
+import rostest
+from hovercraft_sim.msg import State, ThrustCommand
+from hovercraft_sim.srv import Reset
+from std_srvs.srv import Trigger
+
+from ros_waiting import service, wait_until
+
+CRAFT = ('alpha', 'beta')
+PERIODS = 20
+PERIOD_TICKS = 50
+
+
+class Controller:
+    """Of one craft; each command follows from the state that it answers."""
+
+    def __init__(self, name):
+        self.states = {}    # (episode, tick) -> the state
+        self.delay = 0.0    # s
+        self.last_tick = 0  # that it answers
+        self.publisher = rospy.Publisher(f'/{name}/thrust', ThrustCommand, queue_size=10, tcp_nodelay=True)
+        self.subscriber = rospy.Subscriber(f'/{name}/state', State, self.on_state, queue_size=1000)
+        wait_until(lambda: min(self.publisher.get_num_connections(), self.subscriber.get_num_connections()) > 0,
+                   'the topics')
+
+    def on_state(self, state):
+        self.states[state.episode, state.tick] = state
+        if state.tick <= self.last_tick:
+            threading.Event().wait(self.delay)
+            self.answer(state)
+
+    def answer(self, state):
+        command = ThrustCommand(rear=1.0 + state.pose.position.y, left=0.5 - state.pose.position.x, right=0.2)
+        command.header.stamp = state.header.stamp
+        self.publisher.publish(command)
+
+
+class LockstepTwoVehiclesTest(unittest.TestCase):
+    def begin(self, last_tick, delays):
+        service('pause', Trigger)()
+        episode = service('reset', Reset)().episode
+        for controller, delay in zip(CONTROLLERS, delays):
+            controller.last_tick, controller.delay = last_tick, delay
+        service('resume', Trigger)()
+        return episode
+
+    def wait_for(self, episode, tick):
+        wait_until(lambda: all((episode, tick) in controller.states for controller in CONTROLLERS), f'tick {tick}')
+
+    def fly(self, *delays):
+        last = PERIODS * PERIOD_TICKS
+        episode = self.begin(last - PERIOD_TICKS, delays)
+        self.wait_for(episode, last)
+        return [[controller.states[episode, tick].hash for tick in range(PERIOD_TICKS, last + 1, PERIOD_TICKS)]
+                for controller in CONTROLLERS]
+
+    def test_whose_command_comes_first_does_not_matter(self):
+        at_once = self.fly(0.0, 0.0)
+        self.assertNotEqual(at_once[0], at_once[1])
+        self.assertEqual(self.fly(0.0, 0.03), at_once)
+        self.assertEqual(self.fly(0.03, 0.0), at_once)
+
+    def test_the_node_waits_for_both(self):
+        episode = self.begin(0, (0.0, 0.0))
+        self.wait_for(episode, PERIOD_TICKS)
+        alpha, beta = CONTROLLERS
+        for _ in range(3):  # the others are too many, and dropped
+            alpha.answer(alpha.states[episode, PERIOD_TICKS])
+        # A service is answered after what came before it; the node would have gone on by now.
+        service('pause', Trigger)()
+        service('resume', Trigger)()
+        self.assertNotIn((episode, 2 * PERIOD_TICKS), alpha.states)
+        beta.answer(beta.states[episode, PERIOD_TICKS])
+        self.wait_for(episode, 2 * PERIOD_TICKS)
+
+
+if __name__ == '__main__':
+    rospy.init_node('lockstep_two_vehicles_test')
+    CONTROLLERS = [Controller(name) for name in CRAFT]
+    rostest.rosrun('hovercraft_sim', 'lockstep_two_vehicles', LockstepTwoVehiclesTest)
