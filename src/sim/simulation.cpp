@@ -65,9 +65,9 @@ Simulation::Simulation(Scenario scenario)
   }
   if (scenario_.world) {
     world_.emplace(worldOf(scenario_));
+    drives_.resize(world_->bodies().size());
   }
-  drives_.resize(world_ ? world_->bodies().size() : models_.size());
-  moving_.reserve(drives_.size());
+  before_.reserve(models_.size());
   reset(scenario_.seed);
 }
 
@@ -177,37 +177,39 @@ void Simulation::applyDueCommands() {
   }
 }
 
+/// Each craft by itself. If one diverges, those before it go back.
 void Simulation::stepVehicles() {
-  moving_.clear();
+  if (state_.vehicles.size() > 1) before_ = state_.vehicles;
   for (std::size_t vehicle = 0; vehicle < state_.vehicles.size(); ++vehicle) {
-    const VehicleState& state = state_.vehicles[vehicle];
-    ThrustCourse& thrusts = drives_[vehicle].thrusts;
-    thrusts = engine_dynamics_[vehicle].course(state.engines, state_.tick);
-    ExternalLoad load;
-    const bool is_pushed = sumWrenches(state_.wrenches, vehicle, load);
-    const DrivenHovercraft system = {models_[vehicle], thrusts, is_pushed ? &load : nullptr};
-    std::visit(
-        [&](const auto& body) {
-          auto next = integrationStep(scenario_.integrator, body, system, h_);
-          if (!settle(next)) failAsDiverged("vehicles", scenario_.vehicles[vehicle].name);
-          moving_.push_back(next);
-        },
-        state.body);
+    if (stepVehicle(vehicle)) continue;
+    if (vehicle > 0) state_.vehicles.swap(before_);
+    failAsDiverged("vehicles", scenario_.vehicles[vehicle].name);
   }
-  takeOver();
 }
 
-/// Makes what a step has led to the state.
-void Simulation::takeOver() {
-  const std::size_t count = state_.vehicles.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    state_.vehicles[i].body = moving_[i];
-    for (int k = 0; k < kEngineCount; ++k) {
-      state_.vehicles[i].engines[static_cast<std::size_t>(k)].thrust = drives_[i].thrusts.end[k];
-    }
+/// @returns false, and nothing has changed, if the motion would not be finite.
+bool Simulation::stepVehicle(std::size_t vehicle) {
+  VehicleState& state = state_.vehicles[vehicle];
+  const ThrustCourse thrusts = engine_dynamics_[vehicle].course(state.engines, state_.tick);
+  ExternalLoad load;
+  const bool is_pushed = sumWrenches(state_.wrenches, vehicle, load);
+  const DrivenHovercraft system = {models_[vehicle], thrusts, is_pushed ? &load : nullptr};
+  const bool is_sound = std::visit(
+      [&](auto& body) {
+        auto next = integrationStep(scenario_.integrator, body, system, h_);
+        if (!settle(next)) return false;
+        body = next;
+        return true;
+      },
+      state.body);
+  if (is_sound) takeThrusts(vehicle, thrusts);
+  return is_sound;
+}
+
+void Simulation::takeThrusts(std::size_t vehicle, const ThrustCourse& thrusts) {
+  for (int i = 0; i < kEngineCount; ++i) {
+    state_.vehicles[vehicle].engines[static_cast<std::size_t>(i)].thrust = thrusts.end[i];
   }
-  std::copy(moving_.begin() + static_cast<std::ptrdiff_t>(count), moving_.end(),
-            state_.bodies.begin());
 }
 
 void Simulation::failAsDiverged(const char* kind, const std::string& name) const {
@@ -248,7 +250,12 @@ void Simulation::stepWorld() {
       failAsDiverged(i < count ? "vehicles" : "world.bodies", world_->nameOf(static_cast<int>(i)));
     }
   }
-  takeOver();
+  for (std::size_t i = 0; i < count; ++i) {
+    state_.vehicles[i].body = moving_[i];
+    takeThrusts(i, drives_[i].thrusts);
+  }
+  std::copy(moving_.begin() + static_cast<std::ptrdiff_t>(count), moving_.end(),
+            state_.bodies.begin());
   state_.contacts.swap(contacts_);
 }
 

@@ -150,10 +150,11 @@ class Simulation {
  private:
   void applyDueCommands();
   void stepVehicles();
+  bool stepVehicle(std::size_t vehicle);
+  void takeThrusts(std::size_t vehicle, const ThrustCourse& thrusts);
   [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
   void stepWorld();
-  void takeOver();
   void report();
   BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
                    const Mobility& mobility) const;
@@ -165,7 +166,8 @@ class Simulation {
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;
   std::optional<World> world_;
-  // Of a step, until all of it is known to be sound: vehicles, then loose bodies.
+  std::vector<VehicleState> before_;  // of a step of several craft without a world
+  // Of a step of a world, until all of it is known to be sound: vehicles, then loose bodies.
   std::vector<BodyState> moving_;
   std::vector<BodyDrive> drives_;
   std::vector<ContactMemory> contacts_;
