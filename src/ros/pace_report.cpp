@@ -44,6 +44,8 @@ void toDiagnostics(const hovercraft_sim::Telemetry& telemetry,
   } else if (telemetry.time_given_up > 0.0) {
     status.summaryf(DiagnosticStatus::WARN, "Falls behind: %.3f s given up",
                     telemetry.time_given_up);
+  } else if (telemetry.contact_stalls > 0) {
+    status.summary(DiagnosticStatus::WARN, "Contact: the rest of a step was left out");
   } else {
     status.summary(DiagnosticStatus::OK, "Keeps its pace");
   }
@@ -55,6 +57,7 @@ void toDiagnostics(const hovercraft_sim::Telemetry& telemetry,
   status.addf("Lateness p99 (us)", "%.1f", kMicroseconds * telemetry.lateness_p99);
   status.add("Late steps", telemetry.late_steps);
   status.addf("Wall time given up (s)", "%.3f", telemetry.time_given_up);
+  status.add("Steps with contact cut off", telemetry.contact_stalls);
   status.add("Tick", telemetry.tick);
   status.add("Episode", telemetry.episode);
 }

@@ -107,6 +107,10 @@ TEST(PaceReport, TheDiagnosticsNameWhoIsWaitedForBeforeAnythingElse) {
     toDiagnostics(telemetry, status);
     return status;
   };
+  telemetry.contact_stalls = 3;
+  EXPECT_EQ(statusOf().level, DiagnosticStatus::WARN);
+  EXPECT_EQ(statusOf().message, "Contact: the rest of a step was left out");
+  EXPECT_EQ(valueOf(statusOf(), "Steps with contact cut off"), "3");
   telemetry.time_given_up = 0.25;
   EXPECT_EQ(statusOf().level, DiagnosticStatus::WARN);
   EXPECT_EQ(statusOf().message, "Falls behind: 0.250 s given up");

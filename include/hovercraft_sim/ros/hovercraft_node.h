@@ -99,6 +99,7 @@ class HovercraftNode {
   std::int64_t answered_ns_ = 0;       // when the last of them came
   WarningLimiter behind_warnings_;
   WarningLimiter silence_warnings_;
+  std::uint64_t reported_stalls_ = 0;
   std::vector<std::uint64_t> reported_drops_;
   std::vector<std::uint64_t> reported_saturations_;
   diagnostic_updater::Updater diagnostics_;
