@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle handle;
   try {
     const ros::NodeHandle private_handle("~");
-    const std::string name = ros::this_node::getName();
+    const std::string& name = ros::this_node::getName();
     XmlRpc::XmlRpcValue parameters;
     ros::param::get(private_handle.getNamespace(), parameters);
     hovercraft_ros::HovercraftNode node(

@@ -162,6 +162,17 @@ Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick 
   return command;
 }
 
+CommandLog parseCommands(const ConfigReader& reader, const Scenario& scenario, Tick earliest) {
+  CommandLog log;
+  if (!reader.has("commands")) return log;
+  for (const ConfigReader& entry : reader.list("commands")) {
+    const Command command = parseCommand(entry, scenario, earliest);
+    log.push(command);
+    earliest = command.tick;
+  }
+  return log;
+}
+
 ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario) {
   reader.allowOnly({"vehicle", "frame", "force", "torque", "end_tick"});
   ExternalWrench external;
@@ -237,13 +248,7 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
       state.contacts.push_back(parseContact(contact));
     }
   }
-  if (reader.has("commands")) {
-    Tick earliest = state.tick;
-    for (const ConfigReader& command : reader.list("commands")) {
-      state.commands.push(parseCommand(command, scenario, earliest));
-      earliest = state.commands.waiting().back().tick;
-    }
-  }
+  state.commands = parseCommands(reader, scenario, state.tick);
   Simulation check(scenario);
   check.restore(state);
   if (reader.text("hash") != fmt::format("{:016x}", check.hash())) {
