@@ -102,24 +102,24 @@ TEST(PaceReport, TheDiagnosticsHaveTheFiguresInTheirUnits) {
 
 TEST(PaceReport, TheDiagnosticsNameWhoIsWaitedForBeforeAnythingElse) {
   Telemetry telemetry;
-  const auto statusOf = [&telemetry] {
+  const auto status_of = [&telemetry] {
     diagnostic_updater::DiagnosticStatusWrapper status;
     toDiagnostics(telemetry, status);
     return status;
   };
   telemetry.contact_stalls = 3;
-  EXPECT_EQ(statusOf().level, DiagnosticStatus::WARN);
-  EXPECT_EQ(statusOf().message, "Contact: the rest of a step was left out");
-  EXPECT_EQ(valueOf(statusOf(), "Steps with contact cut off"), "3");
+  EXPECT_EQ(status_of().level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status_of().message, "Contact: the rest of a step was left out");
+  EXPECT_EQ(valueOf(status_of(), "Steps with contact cut off"), "3");
   telemetry.time_given_up = 0.25;
-  EXPECT_EQ(statusOf().level, DiagnosticStatus::WARN);
-  EXPECT_EQ(statusOf().message, "Falls behind: 0.250 s given up");
+  EXPECT_EQ(status_of().level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status_of().message, "Falls behind: 0.250 s given up");
   telemetry.paused = 1;
-  EXPECT_EQ(statusOf().level, DiagnosticStatus::OK);
-  EXPECT_EQ(statusOf().message, "Paused");
+  EXPECT_EQ(status_of().level, DiagnosticStatus::OK);
+  EXPECT_EQ(status_of().message, "Paused");
   telemetry.waiting_for = "alpha";
-  EXPECT_EQ(statusOf().level, DiagnosticStatus::WARN);
-  EXPECT_EQ(statusOf().message, "Waits for a command of alpha");
+  EXPECT_EQ(status_of().level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status_of().message, "Waits for a command of alpha");
 }
 
 }  // namespace
