@@ -212,12 +212,7 @@ std::string toSnapshot(const Simulation& simulation) {
 
 SimulationState parseSnapshot(const std::string& text, const std::string& source,
                               const Scenario& scenario) {
-  YAML::Node tree;
-  try {
-    tree = YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(fmt::format("{}: not YAML: {}", source, error.what()));
-  }
+  const YAML::Node tree = treeOf(text, source);
   const ConfigReader reader(tree, source);
   reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",
                     "commands", "scenario"});
