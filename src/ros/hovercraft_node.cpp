@@ -309,7 +309,7 @@ void HovercraftNode::report() {
   catchUp();
   const std::int64_t now = steadyNow();
   pace_.fill(telemetry_message_, now, config_.scenario.step_ns);
-  telemetry_message_.header.stamp = run_.stamp();
+  telemetry_message_.header.stamp = run_.headerStamp();
   telemetry_message_.tick = static_cast<std::uint64_t>(run_.simulation().tick());
   telemetry_message_.episode = run_.episode();
   telemetry_message_.paused = static_cast<std::uint8_t>(paused_ ? 1 : 0);

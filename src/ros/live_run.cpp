@@ -18,7 +18,7 @@ ros::Time LiveRun::stampOf(hovercraft::Tick tick) const {
 }
 
 RunEvent LiveRun::apply(RunEvent event) {
-  event.header.stamp = stamp();
+  event.header.stamp = headerStamp();
   event.tick = static_cast<std::uint64_t>(simulation_.tick());
   const std::int64_t now_ns = epoch_ns_ + simulation_.timeNs();
   applyEvent(event, simulation_);

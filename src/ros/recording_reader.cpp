@@ -195,6 +195,7 @@ class Reader {
 
   /// States say how many commands and events they rest on.
   void findGaps() {
+    std::map<std::size_t, RunTime> whole;  // the last state without a gap, by vehicle
     for (const Recording::RecordedState& recorded : recording_.states) {
       const std::uint32_t episode = recorded.time.episode;
       if (!recording_.gaps.empty() && recording_.gaps.back().begin.episode == episode) continue;
@@ -202,9 +203,22 @@ class Reader {
       if (const auto gap = events_[episode].gapBelow(state.events)) {
         noteGap(time, *gap, "event", "");
       } else if (const auto lost = commands_[{episode, vehicle}].gapBelow(state.commands)) {
-        noteGap(time, *lost, "command", " of " + recording_.scenario.vehicles[vehicle].name);
+        const RunTime after = whole.emplace(vehicle, RunTime{episode, -1}).first->second;
+        noteGap(firstStateAfter(after.episode == episode ? after : RunTime{episode, -1}), *lost,
+                "command", " of " + recording_.scenario.vehicles[vehicle].name);
+      } else {
+        whole[vehicle] = time;
       }
     }
+  }
+
+  /// The command may have taken effect from there on: where bodies meet, in other vehicles too,
+  /// whose states may be there when those of the vehicle itself are lost as well.
+  RunTime firstStateAfter(const RunTime& time) const {
+    const auto later = [](const RunTime& t, const Recording::RecordedState& recorded) {
+      return t < recorded.time;
+    };
+    return std::upper_bound(recording_.states.begin(), recording_.states.end(), time, later)->time;
   }
 
   void noteGap(const RunTime& begin, const Numbers::Gap& gap, const char* what,

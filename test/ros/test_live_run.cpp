@@ -73,6 +73,18 @@ TEST(LiveRun, StampIsEpochPlusTicks) {
   EXPECT_EQ(run.stamp(), ros::Time(5, 6000000));
 }
 
+/// ROS takes time 0 for no time.
+TEST(LiveRun, WhatHappensAtTime0IsStampedAsTick1) {
+  LiveRun run(parsed(validScenario()), 0);  // steps of 2 ms
+  EXPECT_TRUE(run.stamp().isZero());
+  EXPECT_EQ(run.place().stamp.toNSec(), 2000000U);
+  EXPECT_EQ(run.apply(resetEvent(1)).header.stamp.toNSec(), 2000000U);
+  advance(run, 1);
+  EXPECT_EQ(run.place().stamp.toNSec(), 2000000U);
+  advance(run, 1);
+  EXPECT_EQ(run.place().stamp.toNSec(), 4000000U);
+}
+
 TEST(LiveRun, ResetBeginsAnEpisodeWhileTimeGoesOn) {
   LiveRun run(parsed(validScenario()), kEpoch);
   const std::uint64_t fresh = run.simulation().hash();

@@ -174,6 +174,7 @@ TEST_F(RecordedRun, ALoadGivesAChangedScenarioTheMotionOfTheSnapshot) {
 struct Lost {
   std::set<std::size_t> commands;  // indices
   std::set<std::size_t> events;    // indices
+  std::set<std::size_t> states{};  // indices
 };
 
 /// Writes the recording into a bag.
@@ -193,11 +194,11 @@ void writeBag(const Recording& recording, const std::vector<std::string>& names,
     if (lost.commands.count(i) > 0) continue;
     bag.write("/" + names[recorded.command.vehicle] + "/commands", time, message);
   }
-  std::uint32_t state_seq = 0;
-  for (const auto& recorded : recording.states) {
+  for (std::size_t i = 0; i < recording.states.size(); ++i) {
+    if (lost.states.count(i) > 0) continue;
+    const auto& recorded = recording.states[i];
     hovercraft_sim::State message = recorded.state;
-    message.header.seq = state_seq / static_cast<std::uint32_t>(names.size());
-    ++state_seq;
+    message.header.seq = static_cast<std::uint32_t>(i / names.size());
     bag.write("/" + names[recorded.vehicle] + "/state", time, message);
   }
   for (std::size_t i = 0; i < recording.events.size(); ++i) {
@@ -246,6 +247,19 @@ TEST_F(RecordedRun, ALostMessageIsNamedAndGivesNoFalseVerdict) {
     ASSERT_GE(verdict.size(), end.size());
     EXPECT_EQ(verdict.substr(verdict.size() - end.size()), end);
   }
+}
+
+/// The two may have met in the meantime: what beta did then cannot be checked either.
+TEST_F(RecordedRun, ACommandLostWithTheStateAfterItLeavesTheOtherCraftUnknownToo) {
+  const TestFolder folder;
+  ASSERT_EQ(recording_.states[4].vehicle, 0U);
+  ASSERT_EQ(recording_.states[4].time.tick, 30);
+  writeBag(recording_, {"alpha", "beta"}, folder.file("gap.bag"), {{8}, {}, {4}});
+  const Recording recording = readRecording(folder.file("gap.bag"));
+  ASSERT_EQ(recording.gaps.size(), 1U);
+  EXPECT_EQ(recording.gaps[0].missing, "command 5 of alpha in episode 0");
+  EXPECT_EQ(recording.gaps[0].begin.episode, 0U);
+  EXPECT_EQ(recording.gaps[0].begin.tick, 30);
 }
 
 TEST_F(RecordedRun, WhatIsLostAfterTheLastStateDoesNotMatter) {

@@ -24,9 +24,12 @@ class LiveRun {
   std::uint32_t episode() const { return episode_; }
 
   /// What messages say of the current tick.
-  RunStamp place() const { return {stamp(), episode_, events_}; }
+  RunStamp place() const { return {headerStamp(), episode_, events_}; }
   /// ROS time of the current tick.
   ros::Time stamp() const { return stampOf(simulation_.tick()); }
+  /// The same for a header: ROS takes time 0 for no time, so that what happens then is stamped as
+  /// tick 1, as in the bags of `simulate`.
+  ros::Time headerStamp() const { return stamp().isZero() ? stampOf(1) : stamp(); }
   ros::Time stampOf(hovercraft::Tick tick) const;
   /// Of tick 0 of this episode, ns.
   std::int64_t epochNs() const { return epoch_ns_; }
