@@ -44,8 +44,7 @@ bool FeatureWalk::moveVertex(int side) {
     }
   }
   if (chosen < 0) return false;
-  const std::int32_t half = body.fan_edge[at(chosen)];
-  setFeature(side, FeatureKind::kVertex, body.edges[at(half / 2)].vertex[1 - half % 2]);
+  setFeature(side, FeatureKind::kVertex, body.fan_vertex[at(chosen)]);
   return true;
 }
 

@@ -75,7 +75,7 @@ std::size_t ConvexPolyhedron::memory() const {
   const auto bytes = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
   return sizeof(*this) + bytes(data_.vertices) + bytes(data_.edges) + bytes(data_.faces) +
          bytes(data_.ring) + bytes(data_.ring_edge) + bytes(data_.fan) + bytes(data_.fan_edge) +
-         bytes(data_.support_map) + bytes(data_.inner);
+         bytes(data_.fan_vertex) + bytes(data_.support_map) + bytes(data_.inner);
 }
 
 }  // namespace hovercraft

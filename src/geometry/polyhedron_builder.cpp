@@ -257,6 +257,7 @@ void addFans(PolyhedronData& data, const std::vector<std::int32_t>& ranks) {
   for (std::size_t v = 0; v < ranks.size(); ++v) order[at(ranks[v])] = static_cast<std::int32_t>(v);
   data.fan.reserve(2 * data.edges.size());
   data.fan_edge.reserve(2 * data.edges.size());
+  data.fan_vertex.reserve(2 * data.edges.size());
   for (const std::int32_t v : order) {
     const auto begin = static_cast<std::int32_t>(data.fan.size());
     std::int32_t half = first[at(v)];
@@ -265,6 +266,7 @@ void addFans(PolyhedronData& data, const std::vector<std::int32_t>& ranks) {
       const Vector3 direction = half % 2 == 0 ? edge.direction : Vector3(-edge.direction);
       data.fan.push_back({direction, edge.length});
       data.fan_edge.push_back(half);
+      data.fan_vertex.push_back(edge.vertex[1 - half % 2]);
       half = nextSpoke(data, half, v);
     } while (half != first[at(v)]);
     data.vertices[at(v)].fan_begin = begin;

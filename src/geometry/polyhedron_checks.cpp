@@ -152,8 +152,7 @@ std::int32_t climb(const PolyhedronData& data, std::int32_t start, const Vector3
       }
     }
     if (chosen < 0) break;
-    const std::int32_t half = data.fan_edge[at(chosen)];
-    vertex = data.edges[at(half / 2)].vertex[1 - half % 2];
+    vertex = data.fan_vertex[at(chosen)];
   }
   return vertex;
 }

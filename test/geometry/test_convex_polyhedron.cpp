@@ -91,8 +91,9 @@ TEST(ConvexPolyhedron, NeighboursOfALargeOneLieNearEachOtherInMemory) {
     const std::int32_t fan_end = vertex.fan_begin + vertex.fan_count;
     for (std::int32_t i = vertex.fan_begin; i < fan_end; ++i) {
       const std::int32_t half = body.data().fan_edge[static_cast<std::size_t>(i)];
-      const auto& edge = body.edge(half / 2);
-      const auto& end = body.data().vertices[static_cast<std::size_t>(edge.vertex[1 - half % 2])];
+      const std::int32_t other = body.data().fan_vertex[static_cast<std::size_t>(i)];
+      ASSERT_EQ(other, body.edge(half / 2).vertex[1 - half % 2]);
+      const auto& end = body.data().vertices[static_cast<std::size_t>(other)];
       apart += std::abs(end.fan_begin - vertex.fan_begin);
     }
   }

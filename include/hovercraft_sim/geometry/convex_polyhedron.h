@@ -36,7 +36,8 @@ struct PolyhedronData {
     std::int32_t ring[2];  // where the edge stands in the ring of face[i]
   };
 
-  struct Face {
+  /// One cache line.
+  struct alignas(64) Face {
     Vector3 normal;           // unit, outward
     double offset;            // m, normal · x = offset on the face
     std::int32_t ring_begin;  // its edges: ring[ring_begin] ... counter-clockwise from outside
@@ -62,7 +63,8 @@ struct PolyhedronData {
   std::vector<RingPlane> ring;
   std::vector<std::int32_t> ring_edge;  // of each ring plane
   std::vector<Spoke> fan;
-  std::vector<std::int32_t> fan_edge;  // of each spoke: 2 edge + (0 leaving vertex[0], else 1)
+  std::vector<std::int32_t> fan_edge;    // of each spoke: 2 edge + (0 leaving vertex[0], else 1)
+  std::vector<std::int32_t> fan_vertex;  // of each spoke: the vertex at its other end
   std::vector<std::int32_t>
       support_map;             // support vertex for the middle of each cell of a cube map
   std::vector<Vector3> inner;  // of faces and vertices of many edges: a point inside the face; a
