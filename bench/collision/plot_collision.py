@@ -70,7 +70,7 @@ def speed(path, output):
     left.set_ylabel('median time of a query / ns')
     left.legend(fontsize=8)
     right.set_xlabel('vertices of each body')
-    right.set_ylabel('steps of the walk in a query')
+    right.set_ylabel('steps of a query, its climb included')
     right.set_ylim(bottom=0)
     right.legend(fontsize=8)
     figure.tight_layout()

@@ -1,10 +1,15 @@
 #include "hovercraft_sim/collision/closest_features.h"
 
+#include <cmath>
+
 #include "hovercraft_sim/collision/feature_walk.h"
 #include "hovercraft_sim/collision/penetration.h"
+#include "hovercraft_sim/math/demand.h"
 
 namespace hovercraft {
 namespace {
+
+constexpr const char* kNotFinite = "closest features of poses that are not finite";
 
 ClosestFeatures separated(const FeatureWalk& walk, const Vector3& origin) {
   ClosestFeatures result;
@@ -16,14 +21,16 @@ ClosestFeatures separated(const FeatureWalk& walk, const Vector3& origin) {
   result.feature_a = walk.features()[0];
   result.feature_b = walk.features()[1];
   result.steps = walk.steps();
+  result.climbs = walk.climbs();
   result.excess = walk.excess();
   result.edge_sine = walk.edgeSine();
+  demand(std::isfinite(result.distance), kNotFinite);
   return result;
 }
 
 ClosestFeatures overlapping(const LeastOverlap& least, Proximity status, int steps) {
   ClosestFeatures result;
-  result.status = status;
+  result.status = least.complete ? status : Proximity::kStepLimit;
   result.distance = -least.overlap;
   result.p_WCa = least.p_WCa;
   result.p_WCb = least.p_WCb;
@@ -31,6 +38,7 @@ ClosestFeatures overlapping(const LeastOverlap& least, Proximity status, int ste
   result.feature_a = least.feature_a;
   result.feature_b = least.feature_b;
   result.steps = steps;
+  demand(std::isfinite(result.distance), kNotFinite);
   return result;
 }
 

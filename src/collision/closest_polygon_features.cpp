@@ -42,6 +42,7 @@ class PolygonWalk {
 
   bool run(const FeaturePair& start);
   void leastOverlap();
+  void closestOfAllPairs();
   const ClosestPolygonFeatures& result() const { return result_; }
   double touching() const { return touching_; }
 
@@ -50,6 +51,7 @@ class PolygonWalk {
   Outcome vertexEdge(int x);
   Outcome edgeEdge();
   bool leaveVertex(int side, const Vector2& u, double distance);
+  double slopeAt(int side, const Vector2& u) const;
   Vector2 toWorld(int side, const Vector2& p) const {
     return rotated(pose_[side], p) + pose_[side].p_AB;
   }
@@ -204,6 +206,52 @@ void PolygonWalk::leastOverlap() {
   overlapAlongEdges(1);
 }
 
+/// The larger slope of the two edges of a vertex in the direction u (unit, in W).
+double PolygonWalk::slopeAt(int side, const Vector2& u) const {
+  if (feature_[side].kind != FeatureKind::kVertex) return -1.0;
+  const ConvexPolygon& body = *body_[side];
+  const int v = feature_[side].index;
+  const Vector2 local = rotatedBack(pose_[side], u);
+  return std::max(dot(local, body.edge(v).direction),
+                  -dot(local, body.edge(body.previous(v)).direction));
+}
+
+/// Every vertex with every edge: where rounding lets the walk go round in a circle.
+void PolygonWalk::closestOfAllPairs() {
+  result_.distance = std::numeric_limits<double>::infinity();
+  for (int x = 0; x < 2; ++x) {
+    const int y = 1 - x;
+    for (int i = 0; i < body_[x]->vertexCount(); ++i) {
+      const Vector2 v = toWorld(x, body_[x]->vertex(i));
+      const Vector2 local = rotatedBack(pose_[y], v - pose_[y].p_AB);
+      for (int k = 0; k < body_[y]->vertexCount(); ++k) {
+        const ConvexPolygon::Edge& e = body_[y]->edge(k);
+        const Vector2 w = local - e.p;
+        const double t = dot(w, e.direction);
+        const bool inside = t > 0.0 && t < e.length;
+        const double along = std::min(std::max(t, 0.0), e.length);
+        const Vector2 away = w - along * e.direction;
+        const double distance = inside ? std::abs(dot(outward(e), w)) : length(away);
+        if (distance >= result_.distance) continue;
+        const Vector2 to_edge =
+            rotated(pose_[y], inside ? -1.0 * outward(e) : (-1.0 / distance) * away);
+        const Vector2 foot = v + distance * to_edge;
+        feature_[x] = {FeatureKind::kVertex, i};
+        feature_[y] = {inside ? FeatureKind::kEdge : FeatureKind::kVertex,
+                       t >= e.length ? body_[y]->next(k) : k};
+        result_.distance = distance;
+        result_.p_WCa = x == 0 ? v : foot;
+        result_.p_WCb = x == 0 ? foot : v;
+        result_.nhat_AB_W = x == 0 ? to_edge : -1.0 * to_edge;
+      }
+    }
+  }
+  result_.status = Proximity::kSeparated;
+  result_.excess = std::max(slopeAt(0, result_.nhat_AB_W), slopeAt(1, -1.0 * result_.nhat_AB_W));
+  result_.feature_a = feature_[0];
+  result_.feature_b = feature_[1];
+}
+
 }  // namespace
 
 ClosestPolygonFeatures closestFeatures(const ConvexPolygon& A, const PlanarPose& X_WA,
@@ -220,8 +268,8 @@ ClosestPolygonFeatures closestFeatures(const ConvexPolygon& A, const PlanarPose&
       FeaturePair again;
       again.a = result.feature_a;
       again.b = result.feature_b;
-      result.status = walk.run(again) ? Proximity::kSeparated : Proximity::kStepLimit;
-      if (result.status == Proximity::kSeparated) result = walk.result();
+      if (!walk.run(again)) walk.closestOfAllPairs();
+      result = walk.result();
     }
     result.p_WCa = result.p_WCa + X_WA.p_AB;
     result.p_WCb = result.p_WCb + X_WA.p_AB;

@@ -23,6 +23,7 @@ void FeatureWalk::startAlong(const Vector3& direction) {
     const bool moved_A = moveVertex(0);
     const bool moved_B = moveVertex(1);
     if (!moved_A && !moved_B) break;
+    ++climbs_;
   }
 }
 

@@ -18,17 +18,41 @@ bool rise(std::int32_t count, std::int32_t stride, const Function& f, Top& top) 
   return true;
 }
 
-/// The place of the largest value of f over a cycle of `count` places, where f rises to it from
-/// both sides, starting at `hint`: one look to either side when the hint is right, else strides
-/// that halve.
+/// Looks past values that are level with the top to either side: sides in line and spokes in a
+/// plane have the same value but for rounding. @returns whether a higher one came, which is the new
+/// top.
 template <typename Function>
-std::int32_t topOfCycle(std::int32_t count, std::int32_t hint, const Function& f) {
+bool leaveLevel(std::int32_t count, double level, const Function& f, Top& top) {
+  for (const std::int32_t way : {1, count - 1}) {
+    Top next = top;
+    for (std::int32_t looks = 1; looks < count; ++looks) {
+      next.place = (next.place + way) % count;
+      next.value = f(next.place);
+      if (next.value > top.value) {
+        top = next;
+        return true;
+      }
+      if (next.value < top.value - level) break;
+    }
+  }
+  return false;
+}
+
+/// The place of the largest value of f over a cycle of `count` places, where f rises to it from
+/// both sides, starting at `hint`: two looks to either side when the hint is right, else strides
+/// that halve. @param level difference below which two values may be the same but for rounding.
+template <typename Function>
+std::int32_t topOfCycle(std::int32_t count, std::int32_t hint, double level, const Function& f) {
   const std::int32_t start = hint < 0 || hint >= count ? 0 : hint;
   Top top{start, f(start)};
-  if (!rise(count, 1, f, top)) return top.place;
-  for (std::int32_t stride = count / 4; stride >= 1; stride /= 2) {
-    for (std::int32_t moves = 0; moves < count && rise(count, stride, f, top); ++moves) {
+  bool higher = rise(count, 1, f, top);
+  for (std::int32_t rounds = 0; rounds < count; ++rounds) {
+    for (std::int32_t stride = higher ? count / 4 : 0; stride >= 1; stride /= 2) {
+      for (std::int32_t moves = 0; moves < count && rise(count, stride, f, top); ++moves) {
+      }
     }
+    higher = leaveLevel(count, level, f, top);
+    if (!higher) break;
   }
   return top.place;
 }
@@ -36,8 +60,11 @@ std::int32_t topOfCycle(std::int32_t count, std::int32_t hint, const Function& f
 }  // namespace
 
 FeatureWalk::Slope FeatureWalk::steepest(int side, const Vector3& direction) {
+  return vertex(side).apex >= 0 ? steepestOfMany(side, direction) : steepestOfAll(side, direction);
+}
+
+FeatureWalk::Slope FeatureWalk::steepestOfAll(int side, const Vector3& direction) const {
   const Data::Vertex& v = vertex(side);
-  if (v.apex >= 0) return steepestOfMany(side, direction);
   const Data::Spoke* const fan = body_[side]->fan.data() + v.fan_begin;
   const double x = direction.x();
   const double y = direction.y();
@@ -56,23 +83,33 @@ FeatureWalk::Slope FeatureWalk::steepest(int side, const Vector3& direction) {
 }
 
 /// The spokes, cut by a plane across the cone, are the corners of a convex polygon, and the slope
-/// over the length to that plane is linear on it: it rises to its largest value from both sides.
+/// over the length to that plane is linear on it: it rises to its largest value from both sides. If
+/// that is negative, its product with the least length is a bound on all slopes; if the slope there
+/// is no more than rounding, that of another spoke may be larger.
 FeatureWalk::Slope FeatureWalk::steepestOfMany(int side, const Vector3& direction) {
   const Data& body = *body_[side];
   const Data::Vertex& v = vertex(side);
-  const Vector3& axis = body.inner[at(v.apex)];
+  const Data::Inner& cone = body.inner[at(v.apex)];
   const Data::Spoke* const fan = body.fan.data() + v.fan_begin;
   const auto value = [&](std::int32_t i) {
-    return dot(fan[i].direction, direction) / dot(fan[i].direction, axis);
+    return dot(fan[i].direction, direction) / dot(fan[i].direction, cone.point);
   };
-  const std::int32_t top = topOfCycle(v.fan_count, hints_[at(side)], value);
+  const double length = norm(direction);
+  const std::int32_t top =
+      topOfCycle(v.fan_count, hints_[at(side)], kLevelLoop * length / cone.least, value);
   hints_[at(side)] = top;
-  return {dot(fan[top].direction, direction), v.fan_begin + top};
+  const double slope = dot(fan[top].direction, direction);
+  if (slope > std::max(kVoronoiSlack * length, rounding_)) return {slope, v.fan_begin + top};
+  if (slope > 0.0) return steepestOfAll(side, direction);
+  return {value(top) * cone.least, v.fan_begin + top};
 }
 
 /// The place in the ring of a side of the face that p lies outside of, or -1.
 std::int32_t FeatureWalk::ringOutside(int side, const Data::Face& f, const Vector3& p) {
-  if (f.middle >= 0) return ringOutsideOfMany(side, f, p);
+  return f.middle >= 0 ? ringOutsideOfMany(side, f, p) : ringOutsideOfAll(side, f, p);
+}
+
+std::int32_t FeatureWalk::ringOutsideOfAll(int side, const Data::Face& f, const Vector3& p) const {
   const Data::RingPlane* const ring = body_[side]->ring.data() + f.ring_begin;
   double least = -margin();
   std::int32_t chosen = -1;
@@ -87,18 +124,23 @@ std::int32_t FeatureWalk::ringOutside(int side, const Data::Face& f, const Vecto
 }
 
 /// Seen from the middle of the face, its sides are the corners of the dual polygon, and the share
-/// of the way from the middle to a side that p has gone is linear on it.
+/// of the way from the middle to a side that p has gone is linear on it. Where p is outside of the
+/// side of the largest share by no more than the margin, it may be by more of another.
 std::int32_t FeatureWalk::ringOutsideOfMany(int side, const Data::Face& f, const Vector3& p) {
   const Data& body = *body_[side];
-  const Vector3& middle = body.inner[at(f.middle)];
-  const Vector3 from_middle = p - middle;
+  const Data::Inner& inner = body.inner[at(f.middle)];
+  const Vector3 from_middle = p - inner.point;
   const Data::RingPlane* const ring = body.ring.data() + f.ring_begin;
   const auto share = [&](std::int32_t i) {
-    return -dot(ring[i].inward, from_middle) / (dot(ring[i].inward, middle) - ring[i].offset);
+    return -dot(ring[i].inward, from_middle) / (dot(ring[i].inward, inner.point) - ring[i].offset);
   };
-  const std::int32_t top = topOfCycle(f.ring_count, hints_[at(side)], share);
+  const double level =
+      (kLevelLoop * norm(from_middle) + kPointRounding * body.radius) / inner.least;
+  const std::int32_t top = topOfCycle(f.ring_count, hints_[at(side)], level, share);
   hints_[at(side)] = top;
-  return dot(ring[top].inward, p) - ring[top].offset < -margin() ? f.ring_begin + top : -1;
+  const double inside = dot(ring[top].inward, p) - ring[top].offset;
+  if (inside < -margin()) return f.ring_begin + top;
+  return inside < 0.0 ? ringOutsideOfAll(side, f, p) : -1;
 }
 
 /// Vertex on side x, face on the other.

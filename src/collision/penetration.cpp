@@ -36,6 +36,7 @@ class OverlapSearch {
   const ConvexPolyhedron* body_[2];
   const Matrix3* rotation_[2];
   Vector3 shift_;
+  bool complete_ = true;  // no walk was cut off by its bound
   double least_ = std::numeric_limits<double>::infinity();
   Vector3 normal_{0.0, 0.0, 0.0};  // from A to B, in W
   Feature feature_[2];
@@ -101,6 +102,7 @@ void OverlapSearch::arc(std::int32_t edge_A) {
     edgePair(edge_A, entered, first + second);
     vertex = B.edges[at(entered)].vertex[1 - half % 2];
   }
+  complete_ = false;
 }
 
 void OverlapSearch::edgePair(std::int32_t edge_A, std::int32_t edge_B, const Vector3& outward) {

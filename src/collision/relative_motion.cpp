@@ -38,14 +38,16 @@ RelativeMotion::RelativeMotion(const ConvexPolyhedron& A, const StepMotion& moti
 double RelativeMotion::clearTimeAnywhere(double gap, const Instant& now) const {
   const Vector3 w = motion_B_.w_WB - motion_A_.w_WB;
   const double across = norm(cross(w, now.n));
-  const double in_W = now.closing + norm(cross(motion_A_.w_WB, now.n)) * radius_A_ +
-                      norm(cross(motion_B_.w_WB, now.n)) * radius_B_;
+  const double across_A = norm(cross(motion_A_.w_WB, now.n));
+  const double across_B = norm(cross(motion_B_.w_WB, now.n));
+  const double in_W = now.closing + across_A * radius_A_ + across_B * radius_B_;
   const double in_A =
       now.closing + dot(now.n, cross(motion_A_.w_WB, now.from_A_B)) + across * radius_B_;
   const double in_B =
       now.closing + dot(now.n, cross(motion_B_.w_WB, now.from_A_B)) + across * radius_A_;
-  const double curvature_W =
-      acceleration_ + spin_A_ * spin_A_ * radius_A_ + spin_B_ * spin_B_ * radius_B_;
+  // n · (w × (w × r)) = (n × w) · (w × r)
+  const double curvature_W = std::max(0.0, dot(now.n, Vector3(motion_A_.a_WB - motion_B_.a_WB))) +
+                             across_A * spin_A_ * radius_A_ + across_B * spin_B_ * radius_B_;
   return std::max(
       earliestZero(gap, in_W, curvature_W),
       std::max(earliestZero(gap, in_A, turningAcceleration(spin_A_, spin_B_, radius_B_)),

@@ -63,7 +63,8 @@ TimeOfImpact advance(Scene& scene, const ClosestFeatures& start, const RelativeM
     t += clear;
     now = scene.at(t);
   }
-  if (result.status != ImpactStatus::kQueryLimit) result.status = ImpactStatus::kImpact;
+  const bool answered = result.status == ImpactStatus::kNone && now.status != Proximity::kStepLimit;
+  result.status = answered ? ImpactStatus::kImpact : ImpactStatus::kQueryLimit;
   result.time = t;
   result.closest = now;
   result.queries = scene.queries();
@@ -92,8 +93,10 @@ Halving halve(const ImpactSearch& search, double speed, const Distance& distance
     if (distance_at(middle) > within + 0.25 * search.tolerance) {
       start = end;
       if (--count == 0) return {ImpactStatus::kNone, start};
-    } else if (within < 0.25 * search.tolerance || count == ends.size()) {
+    } else if (within < 0.25 * search.tolerance) {
       return {ImpactStatus::kImpact, start};
+    } else if (count == ends.size()) {
+      break;
     } else {
       ends[count++] = middle;
     }
@@ -111,6 +114,7 @@ TimeOfImpact bisect(Scene& scene, const RelativeMotion& motion, const ImpactSear
   result.status = found.status;
   result.time = found.time;
   result.closest = scene.at(found.time);
+  if (result.closest.status == Proximity::kStepLimit) result.status = ImpactStatus::kQueryLimit;
   result.queries = scene.queries();
   return result;
 }

@@ -1,6 +1,9 @@
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/collision/closest_features.h"
+#include "hovercraft_sim/collision/closest_polygon_features.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 
 #include "../support/allocation_counter.h"
@@ -180,6 +183,88 @@ TEST(ClosestFeatures, LongFacesAndVerticesAreCheap) {
   }
 }
 
+/// A prism of a regular polygon with `between` more vertices in line on each of its sides.
+ConvexPolyhedron prismWithSidesInLine(int corners, int between) {
+  const int count = corners * (between + 1);
+  std::vector<Vector3> vertices;
+  std::vector<std::vector<std::int32_t>> rings(2);
+  for (const double z : {-0.5, 0.5}) {
+    for (int i = 0; i < count; ++i) {
+      const int corner = i / (between + 1);
+      const double share = static_cast<double>(i % (between + 1)) / (between + 1);
+      const double from = 2.0 * kPi * corner / corners;
+      const double to = 2.0 * kPi * (corner + 1) / corners;
+      vertices.emplace_back((1.0 - share) * std::cos(from) + share * std::cos(to),
+                            (1.0 - share) * std::sin(from) + share * std::sin(to), z);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    const int next = (i + 1) % count;
+    rings[0].push_back(count - 1 - i);
+    rings[1].push_back(count + i);
+    rings.push_back({i, next, count + next, count + i});
+  }
+  return ConvexPolyhedron(vertices, rings);
+}
+
+// The search over a long face must not stop at sides that are level with each other.
+TEST(ClosestFeatures, SidesInLineOfALongFaceAreNoEndOfTheSearch) {
+  const ConvexPolyhedron prism = prismWithSidesInLine(24, 3);
+  const ConvexPolyhedron box = boxPolyhedron(Vector3(0.1, 0.1, 0.1));
+  for (int place = 0; place < 20; ++place) {
+    const double angle = 0.3 + 0.61 * place;
+    const double reach = place % 2 == 0 ? 1.6 : 1.05;
+    const Pose X_WB{rotationMatrix(quaternionFromRpy({0.3, 0.4, 0.1 * place})),
+                    Vector3(reach * std::cos(angle), reach * std::sin(angle), 0.8)};
+    const auto expected = static_cast<double>(
+        brute_force::distance(brute_force::place(prism, Pose(), Vector3(0, 0, 0)),
+                              brute_force::place(box, X_WB, Vector3(0, 0, 0))));
+    for (int hint = 0; hint < 96; ++hint) {
+      FeaturePair last{true, {FeatureKind::kFace, 1}, {FeatureKind::kVertex, 0}, {hint, 0}};
+      const ClosestFeatures c = closestFeatures(prism, Pose(), box, X_WB, last);
+      ASSERT_EQ(c.status, Proximity::kSeparated);
+      ASSERT_NEAR(c.distance, expected, 1e-13) << "place " << place << ", hint " << hint;
+    }
+  }
+}
+
+// Fresh starts: the climb from the map of support vertices is counted with the walk.
+TEST(ClosestFeatures, StepsFromAFreshStartHardlyGrowWithTheNumberOfVertices) {
+  for (const int n : {100, 1000, 10000}) {
+    RandomBodies random(static_cast<unsigned>(n));
+    const ConvexPolyhedron A = random.ellipsoidHull(n, {1.0, 0.7, 0.4});
+    const ConvexPolyhedron B = random.ellipsoidHull(n, {1.0, 0.7, 0.4});
+    long steps = 0;
+    const int queries = 300;
+    for (int i = 0; i < queries; ++i) {
+      FeaturePair fresh;
+      const Pose X_WA = random.pose(0.0);
+      const Pose X_WB = random.pose(random.uniform(2.1, 4.0));
+      const ClosestFeatures c = closestFeatures(A, X_WA, B, X_WB, fresh);
+      steps += c.climbs + c.steps;
+    }
+    EXPECT_LT(static_cast<double>(steps) / queries, 5.0 + 0.2 * std::sqrt(n)) << n << " vertices";
+  }
+}
+
+TEST(ClosestFeatures, APoseThatIsNotFiniteIsRefused) {
+  RandomBodies random(11);
+  const ConvexPolyhedron body = random.ellipsoidHull(1000, {1.0, 0.7, 0.4});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Pose far;
+  far.p_AB = Vector3(3, 0, 0);
+  FeaturePair last;
+  closestFeatures(body, Pose(), body, far, last);
+  for (int entry = 0; entry < 12; ++entry) {
+    Pose broken = far;
+    (entry < 9 ? broken.R_AB(entry / 3, entry % 3) : broken.p_AB[entry - 9]) = nan;
+    FeaturePair warm = last;
+    EXPECT_THROW(closestFeatures(body, Pose(), body, broken, warm), std::logic_error) << entry;
+    FeaturePair fresh;
+    EXPECT_THROW(closestFeatures(body, Pose(), body, broken, fresh), std::logic_error) << entry;
+  }
+}
+
 TEST(ClosestFeatures, QueriesDoNotAllocate) {
   RandomBodies random(9);
   const ConvexPolyhedron A = randomBody(random, 100, 1.0);
@@ -189,15 +274,32 @@ TEST(ClosestFeatures, QueriesDoNotAllocate) {
   for (int i = 0; i < 300; ++i) poses.push_back(random.pose(0.01 * i));
   FeaturePair last;
   int penetrating = 0;
+  int unanswered = 0;
   const long before = testing::allocations;
   for (const Pose& X_WB : poses) {
     FeaturePair fresh;
     if (closestFeatures(A, Pose(), B, X_WB, last).status == Proximity::kPenetrating) ++penetrating;
-    if (closestFeatures(A, Pose(), B, X_WB, fresh).status == Proximity::kStepLimit) ++penetrating;
+    if (closestFeatures(A, Pose(), B, X_WB, fresh).status == Proximity::kStepLimit) ++unanswered;
   }
   EXPECT_EQ(testing::allocations, before);
   EXPECT_GT(penetrating, 10);
+  EXPECT_EQ(unanswered, 0);
   EXPECT_GT(before, 300);  // the counter counts
+}
+
+TEST(ClosestFeatures, QueriesOfPolygonsDoNotAllocate) {
+  const ConvexPolygon square({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+  const long before = testing::allocations;
+  int penetrating = 0;
+  for (int i = 0; i < 300; ++i) {
+    FeaturePair fresh;
+    const PlanarPose X_WB{0.6, 0.8, {0.01 * i, 0.0}};
+    const ClosestPolygonFeatures c = closestFeatures(square, PlanarPose(), square, X_WB, fresh);
+    if (c.status == Proximity::kPenetrating) ++penetrating;
+  }
+  EXPECT_EQ(testing::allocations, before);
+  EXPECT_GT(penetrating, 10);
+  EXPECT_LT(penetrating, 290);
 }
 
 }  // namespace

@@ -10,6 +10,10 @@
 namespace hovercraft {
 namespace {
 
+double length(const Vector2& v) {
+  return std::sqrt(dot(v, v));
+}
+
 ConvexPolygon randomPolygon(RandomBodies& random, double size) {
   std::vector<Vector2> points;
   const int n = random.integer(3, 12);
@@ -104,6 +108,51 @@ TEST(ClosestPolygonFeatures, EachPointLiesInTheRegionOfTheOthersFeature) {
       EXPECT_LE(dot(plane.normal, {a.x, a.y, 0.0}) - plane.offset, 1e-13);
     }
     EXPECT_EQ(closestFeatures(A, PlanarPose(), B, X_WB, last).steps, 1);
+  }
+}
+
+/// A box in the plane.
+ConvexPolygon boxPolygon(double x, double y) {
+  return ConvexPolygon({{-x, -y}, {x, -y}, {x, y}, {-x, y}});
+}
+
+// A needle and a box that are parallel but for the last bits: the two walks go round in a circle.
+TEST(ClosestPolygonFeatures, AreFoundWhereRoundingHidesTheTilt) {
+  const ConvexPolygon A = boxPolygon(0.12127750694535437, 3.4890806805021455e-07);
+  const ConvexPolygon B = boxPolygon(0.045380431567683059, 0.0087437578332597472);
+  FeaturePair last;
+  const ClosestPolygonFeatures c = closestFeatures(
+      A, PlanarPose(), B, {1.0, 2.3736576326669561e-13, {0.23448967096431159, 0.0}}, last);
+  EXPECT_EQ(c.status, Proximity::kSeparated);
+  EXPECT_NEAR(c.distance, 0.23448967096431159 - 0.12127750694535437 - 0.045380431567683059, 1e-14);
+  EXPECT_LE(c.excess, 1e-12);
+}
+
+// Needles, 1e-6 to 1e6 in size, gaps down to 1e-9 of it, tilts that rounding hides, foreign starts.
+TEST(ClosestPolygonFeatures, OfDegenerateBoxesAgreeWithAllPairs) {
+  RandomBodies random(63);
+  FeaturePair last;
+  for (int i = 0; i < 20000; ++i) {
+    const auto half = [&] { return std::pow(10.0, random.uniform(-6, 0)); };
+    const double unit = std::pow(10.0, random.uniform(-6, 6));
+    const ConvexPolygon A = boxPolygon(unit * half(), unit * half());
+    const ConvexPolygon B = boxPolygon(unit * half(), unit * half());
+    const double reach = A.radius() + B.radius();
+    const double tilt = std::pow(10.0, random.uniform(-16, 0));
+    PlanarPose X_WB{std::cos(tilt), std::sin(tilt), {}};
+    const double gap = reach * std::pow(10.0, random.uniform(-9, 0));
+    X_WB.p_AB = i % 2 == 0 ? Vector2{reach + gap, random.uniform(-1, 1) * B.radius()}
+                           : Vector2{random.uniform(-1, 1) * A.radius(), reach + gap};
+    last.known = true;
+    last.a = {i % 3 == 0 ? FeatureKind::kVertex : FeatureKind::kEdge, random.integer(0, 3)};
+    last.b = {i % 5 == 0 ? FeatureKind::kVertex : FeatureKind::kEdge, random.integer(0, 3)};
+    const ClosestPolygonFeatures c = closestFeatures(A, PlanarPose(), B, X_WB, last);
+    Expected expected;
+    look(A, PlanarPose(), B, X_WB, expected);
+    look(B, X_WB, A, PlanarPose(), expected);
+    ASSERT_EQ(c.status, Proximity::kSeparated) << "seed 63, sample " << i;
+    ASSERT_NEAR(c.distance, expected.distance, 1e-14 * (reach + length(X_WB.p_AB)))
+        << "seed 63, sample " << i;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/collision/time_of_impact.h"
+#include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 
 #include "random_bodies.h"
@@ -209,6 +210,87 @@ TEST(TimeOfImpact, IsNeverLateAndBothMethodsAgree) {
   std::nth_element(queries.begin(), queries.begin() + static_cast<long>(queries.size() / 2),
                    queries.end());
   EXPECT_LE(queries[queries.size() / 2], 12);
+}
+
+/// 24 points of an ellipse at height 1 over the apex in the origin, which has 24 edges.
+ConvexPolyhedron flatPyramid() {
+  std::vector<Vector3> points{{0, 0, 0}};
+  for (int i = 0; i < 24; ++i) {
+    points.emplace_back(10.0 * std::cos(kPi * i / 12), 0.1 * std::sin(kPi * i / 12), 1.0);
+  }
+  return convexHull(points, "pyramid");
+}
+
+// The pyramid stands on its apex over a plate and falls to its long side: its slope over the plate
+// is a hundred times as steep in the one direction as in the other.
+TEST(TimeOfImpact, AnApexOfManyEdgesIsNoReasonToComeLate) {
+  const ConvexPolyhedron plate = boxPolyhedron(Vector3(60, 60, 1));
+  const ConvexPolyhedron pyramid = flatPyramid();
+  StepMotion motion = moving(Vector3(0, 0, 1.0), Vector3(0, 0, 0), Vector3(0, 1, 0));
+  motion.q_WB = quaternionFromAxisAngle(Vector3::UnitX(), 0.01);
+  const TimeOfImpact fast = timeOfImpact(plate, StepMotion(), pyramid, motion, {1.0, 1e-6});
+  const TimeOfImpact slow =
+      timeOfImpact(plate, StepMotion(), pyramid, motion, {1.0, 1e-6, ImpactMethod::kBisection});
+  ASSERT_EQ(fast.status, ImpactStatus::kImpact);
+  ASSERT_EQ(slow.status, ImpactStatus::kImpact);
+  EXPECT_EQ(fast.closest.status, Proximity::kSeparated);
+  EXPECT_NEAR(fast.time, slow.time, 1e-6);
+}
+
+/// What comes near another body in a step of 1 s, turning on the way.
+StepMotion randomApproach(RandomBodies& random, double reach) {
+  const Vector3 start = 1.5 * reach * random.unitVector();
+  StepMotion motion = moving(start, Vector3(reach * random.unitVector() - 1.2 * start),
+                             random.uniform(0, 3) * random.unitVector());
+  motion.q_WB = random.orientation();
+  motion.a_WB = reach * random.unitVector();
+  return motion;
+}
+
+// Boxes, cylinders with long faces, needles, sheets, an apex of many edges: no overlap before the
+// time returned, none at all where there is no impact, and the fast way is not behind bisection.
+TEST(TimeOfImpact, OfAllSortsOfBodiesIsNeverLate) {
+  RandomBodies random(52);
+  const std::vector<ConvexPolyhedron> bodies = {
+      boxPolyhedron(Vector3(1, 0.5, 0.8)), boxPolyhedron(Vector3(2, 0.01, 0.01)),
+      boxPolyhedron(Vector3(1, 1, 1e-3)),  cylinderPolyhedron(0.5, 0.1, 40),
+      cylinderPolyhedron(0.05, 2, 24),     flatPyramid()};
+  int impacts = 0;
+  int misses = 0;
+  for (int i = 0; i < 540; ++i) {
+    const ConvexPolyhedron& A = bodies[static_cast<std::size_t>(i % 6)];
+    const ConvexPolyhedron& B = bodies[static_cast<std::size_t>(i / 6 % 6)];
+    const double reach = A.data().radius + B.data().radius;
+    StepMotion motion_A = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), 2.0 * random.unitVector());
+    motion_A.q_WB = random.orientation();
+    const StepMotion motion_B = randomApproach(random, reach);
+    const TimeOfImpact fast = timeOfImpact(A, motion_A, B, motion_B, {1.0, 1e-6});
+    const TimeOfImpact slow =
+        timeOfImpact(A, motion_A, B, motion_B, {1.0, 1e-6, ImpactMethod::kBisection});
+    ASSERT_EQ(fast.status, slow.status) << "seed 52, sample " << i;
+    ASSERT_TRUE(fast.status == ImpactStatus::kImpact || fast.status == ImpactStatus::kNone);
+    ASSERT_LE(fast.time, slow.time + 1e-6) << "seed 52, sample " << i;
+    ++(fast.status == ImpactStatus::kImpact ? impacts : misses);
+    FeaturePair last;
+    for (int k = 0; k <= 200; ++k) {
+      const double t = fast.time * k / 200;
+      ASSERT_EQ(closestFeatures(A, motion_A.at(t), B, motion_B.at(t), last).status,
+                Proximity::kSeparated)
+          << "seed 52, sample " << i;
+    }
+  }
+  EXPECT_GT(impacts, 100);
+  EXPECT_GT(misses, 100);
+}
+
+// It spins about the normal while it slides along: neither closes the gap.
+TEST(TimeOfImpact, ADiscThatSpinsOverAPlateTakesFewQueries) {
+  const ConvexPolyhedron plate = boxPolyhedron(Vector3(10, 10, 1));
+  const ConvexPolyhedron disc = cylinderPolyhedron(0.5, 0.1, 32);
+  const StepMotion motion = moving(Vector3(0, 0, 0.55 + 1e-6), Vector3(1, 0, 0), Vector3(0, 0, 3));
+  const TimeOfImpact impact = timeOfImpact(plate, StepMotion(), disc, motion, {1.0, 5e-7});
+  EXPECT_EQ(impact.status, ImpactStatus::kNone);
+  EXPECT_LT(impact.queries, 30);
 }
 
 }  // namespace

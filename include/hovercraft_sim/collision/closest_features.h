@@ -35,10 +35,11 @@ struct ClosestFeatures {
   Vector3 nhat_AB_W;      // unit, from A to B: the way B parts from A
   Feature feature_a;
   Feature feature_b;
-  int steps = 0;  // pairs of features looked at
+  int steps = 0;   // pairs of features looked at
+  int climbs = 0;  // moves from vertex to vertex before them, of a query without a start
   /// The sine of the largest angle by which the line between the witness points leaves the Voronoi
-  /// regions of the two features; at most kVoronoiSlack when separated: theorem 2 then says that no
-  /// other points are closer.
+  /// regions of the two features, or a bound on it; at most kVoronoiSlack when separated: theorem 2
+  /// then says that no other points are closer.
   double excess = 0.0;
   double edge_sine = 0.0;  // of the angle between two edges; 0 for other features
 };
@@ -49,6 +50,7 @@ struct ClosestFeatures {
 /// steps is bounded.
 /// @param X_WA @param X_WB poses of the bodies, rotations orthonormal to rounding.
 /// @param last read as the start, written as the end.
+/// @throws std::logic_error if a pose is not finite.
 ClosestFeatures closestFeatures(const ConvexPolyhedron& A, const Pose& X_WA,
                                 const ConvexPolyhedron& B, const Pose& X_WB, FeaturePair& last);
 

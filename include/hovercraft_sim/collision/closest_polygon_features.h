@@ -27,6 +27,8 @@ struct ClosestPolygonFeatures {
 
 /// The algorithm of Lin and Canny on two convex polygons, as the source draws it: vertices own
 /// cones, edges own strips. Overlapping polygons give the least translation over all edge normals.
+/// Where rounding keeps the walk from an answer all pairs are looked at: there is always one, and
+/// `excess` may then be more than kVoronoiSlack.
 /// @param last read as the start, written as the end.
 ClosestPolygonFeatures closestFeatures(const ConvexPolygon& A, const PlanarPose& X_WA,
                                        const ConvexPolygon& B, const PlanarPose& X_WB,

@@ -52,6 +52,7 @@ class FeatureWalk {
   const Vector3& normal() const { return normal_; }                  // unit, from A to B
   const Vector3& point(int side) const { return point_[at(side)]; }  // from A's origin
   int steps() const { return steps_; }
+  int climbs() const { return climbs_; }
   double excess() const { return excess_; }
   double edgeSine() const { return edge_sine_; }
 
@@ -62,7 +63,7 @@ class FeatureWalk {
 
   /// The edge of a vertex along which a direction climbs most.
   struct Slope {
-    double value;      // m, or without unit for a unit direction
+    double value;      // m, or without unit for a unit direction; may be a bound where negative
     std::int32_t fan;  // place in PolyhedronData::fan
   };
 
@@ -102,8 +103,10 @@ class FeatureWalk {
   Outcome edgeFace(int x);
 
   Slope steepest(int side, const Vector3& direction);
+  Slope steepestOfAll(int side, const Vector3& direction) const;
   Slope steepestOfMany(int side, const Vector3& direction);
   std::int32_t ringOutside(int side, const Data::Face& face, const Vector3& p);
+  std::int32_t ringOutsideOfAll(int side, const Data::Face& face, const Vector3& p) const;
   std::int32_t ringOutsideOfMany(int side, const Data::Face& face, const Vector3& p);
   Outcome edgesMeet(const Vector3& normal, double length, double error);
   Outcome leaveFace(int x, const Vector3& p);
@@ -153,6 +156,7 @@ class FeatureWalk {
   /// Witness points `from` on side x and `to` on the other, u = to - from of length `length`.
   void setAnswer(int x, const Vector3& from, const Vector3& to, const Vector3& unit,
                  double length) {
+    edge_sine_ = 0.0;
     point_[at(x)] = from;
     point_[at(1 - x)] = to;
     normal_ = x == 0 ? unit : Vector3(-unit);
@@ -173,6 +177,7 @@ class FeatureWalk {
   double excess_ = 0.0;
   double edge_sine_ = 0.0;
   int steps_ = 0;
+  int climbs_ = 0;
 };
 
 }  // namespace hovercraft

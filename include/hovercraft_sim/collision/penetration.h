@@ -14,6 +14,7 @@ struct LeastOverlap {
   Feature feature_b;
   Vector3 p_WCa;  // points of them, overlap apart along nhat_AB_W
   Vector3 p_WCb;
+  bool complete = true;  // false: a bound cut the search off, and there may be less
 };
 
 /// The least overlap over all faces of the Minkowski difference of A and B: each face of one body

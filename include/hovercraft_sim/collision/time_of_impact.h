@@ -9,7 +9,8 @@ enum class ImpactStatus {
   kNone,         // the bodies stay apart for the whole step
   kImpact,       // at `time` they are `tolerance` apart or less, and have not met before
   kOverlapping,  // they overlap at t = 0 already
-  kQueryLimit    // the bound on the number of queries was reached; they have not met before `time`
+  kQueryLimit  // the bound on the number of queries was reached, or one found no answer; they have
+               // not met before `time`
 };
 
 /// How to search for the time of impact. All are never late.
@@ -20,7 +21,8 @@ enum class ImpactMethod {
 
 struct ImpactSearch {
   double duration = 0.0;   // s, of the step
-  double tolerance = 0.0;  // m, the distance that counts as contact, positive
+  double tolerance = 0.0;  // m, the distance that counts as contact, positive; below
+                           // kTouchingDistance of all coordinates it is lost in rounding
   ImpactMethod method = ImpactMethod::kAdvance;
 };
 
@@ -68,6 +70,7 @@ struct VertexImpact {
 /// The first time in a step at which a vertex p_B of a moving body comes within `tolerance` of a
 /// fixed plane: the source's first step (physics.md 5), by bisection or by steps from rate and
 /// curvature; each finds the first of several contacts.
+/// @throws std::logic_error if duration or tolerance are not positive.
 VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion, const Plane& plane,
                                const ImpactSearch& search);
 

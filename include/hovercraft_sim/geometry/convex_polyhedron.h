@@ -57,6 +57,13 @@ struct PolyhedronData {
     double length;      // m
   };
 
+  /// The inside of a face or a vertex of many edges.
+  struct Inner {
+    Vector3 point;  // of a face: m, its middle; of a vertex: unit, at acute angles with its spokes
+    double least;   // m, distance of the middle from a side; cosine of the angle with a spoke
+    double most;
+  };
+
   std::vector<Vertex> vertices;
   std::vector<Edge> edges;
   std::vector<Face> faces;
@@ -66,9 +73,8 @@ struct PolyhedronData {
   std::vector<std::int32_t> fan_edge;    // of each spoke: 2 edge + (0 leaving vertex[0], else 1)
   std::vector<std::int32_t> fan_vertex;  // of each spoke: the vertex at its other end
   std::vector<std::int32_t>
-      support_map;             // support vertex for the middle of each cell of a cube map
-  std::vector<Vector3> inner;  // of faces and vertices of many edges: a point inside the face; a
-                               // direction that is at acute angles with every spoke
+      support_map;  // support vertex for the middle of each cell of a cube map
+  std::vector<Inner> inner;
   std::int32_t support_cells = 0;    // cells along an edge of the cube
   double radius = 0.0;               // m, greatest distance of a vertex from the origin
   Vector3 center = Vector3::Zero();  // mean of the vertices, inside

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
 
@@ -29,7 +30,7 @@ inline std::int32_t supportSeed(const PolyhedronData& data, const Vector3& direc
     s = direction.x();
     t = direction.y();
   }
-  if (!(major != 0.0)) return 0;
+  if (!(std::abs(major) > 0.0 && ax + ay + az <= std::numeric_limits<double>::max())) return 0;
   if (major < 0.0) side += 1;
   const double middle = 0.5 * data.support_cells;
   const double scale = middle / std::abs(major);

@@ -55,6 +55,10 @@ constexpr double kMeshDentSlack = 4.0 * kMeshCoordinate;
 /// this the distance differs by no more than 2e-14 of their length.
 constexpr double kVoronoiSlack = 2e-14;
 
+/// Difference (-, of the largest there can be) below which neighbours in a long loop of edges count
+/// as level: some hundred roundings, and still far below what two corners of a million make.
+constexpr double kLevelLoop = 1e-13;
+
 /// Rounding (-, of the sum of all coordinates) of the difference of two points in one frame: each
 /// coordinate is a sum of four terms, eight roundings of 1.1e-16 bound it.
 constexpr double kPointRounding = 8e-16;
@@ -78,8 +82,9 @@ constexpr double kPreciseParallelEdges = 1e-56;
 /// the direction of the distance better than the difference of the witness points.
 constexpr double kCrossingEdges = 1e-4;
 
-/// Bound on the number of queries in one search for a time of impact. Each step of the search
-/// closes a fixed share of the gap at least; ten to a hundred are usual.
+/// Bound on the number of queries in one search for a time of impact: seven are usual. A body that
+/// spins across the normal a hair's breadth from another one for a thousand radii is what needs
+/// more.
 constexpr int kMaxImpactQueries = 10000;
 
 /// Distance (N) from its demand below which a lagging thrust has arrived: without a bound it would
