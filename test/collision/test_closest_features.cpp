@@ -219,8 +219,9 @@ TEST(ClosestFeatures, SidesInLineOfALongFaceAreNoEndOfTheSearch) {
     const auto expected = static_cast<double>(
         brute_force::distance(brute_force::place(prism, Pose(), Vector3(0, 0, 0)),
                               brute_force::place(box, X_WB, Vector3(0, 0, 0))));
+    const int lowest = box.supportVertex(transposeTimes(X_WB.R_AB, Vector3(0, 0, -1)));
     for (int hint = 0; hint < 96; ++hint) {
-      FeaturePair last{true, {FeatureKind::kFace, 1}, {FeatureKind::kVertex, 0}, {hint, 0}};
+      FeaturePair last{true, {FeatureKind::kFace, 1}, {FeatureKind::kVertex, lowest}, {hint, 0}};
       const ClosestFeatures c = closestFeatures(prism, Pose(), box, X_WB, last);
       ASSERT_EQ(c.status, Proximity::kSeparated);
       ASSERT_NEAR(c.distance, expected, 1e-13) << "place " << place << ", hint " << hint;
