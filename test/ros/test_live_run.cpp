@@ -101,6 +101,13 @@ TEST(LiveRun, ResetBeginsAnEpisodeWhileTimeGoesOn) {
   EXPECT_EQ(run.stamp(), ros::Time(5, 502000000));
 }
 
+TEST(LiveRun, AResetBringsTheSeedThatItNames) {
+  LiveRun run(parsed(validScenario()), kEpoch);
+  ASSERT_NE(run.simulation().state().seed, 42);
+  run.apply(resetEvent(42));
+  EXPECT_EQ(run.simulation().state().seed, 42);
+}
+
 TEST(LiveRun, LoadGoesOnFromTheSnapshotsTickWhileTimeGoesOn) {
   const Scenario scenario = parsed(validScenario());
   hovercraft::Simulation saved(scenario);

@@ -264,9 +264,11 @@ TEST_F(RecordedRun, ACommandLostWithTheStateAfterItLeavesTheOtherCraftUnknownToo
 
 TEST_F(RecordedRun, WhatIsLostAfterTheLastStateDoesNotMatter) {
   const TestFolder folder;
-  recording_.commands.push_back(recording_.commands.back());
+  auto later = recording_.commands.back();
+  later.time.tick = later.command.tick = recording_.states.back().time.tick + 1;
+  recording_.commands.insert(recording_.commands.end(), 2, later);
   writeBag(recording_, {"alpha", "beta"}, folder.file("run.bag"),
-           {{recording_.commands.size() - 1}, {}});
+           {{recording_.commands.size() - 2}, {}});
   std::string verdict;
   EXPECT_EQ(replayBag({folder.file("run.bag"), "", {}}, verdict), 0) << verdict;
 }

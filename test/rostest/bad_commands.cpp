@@ -8,6 +8,7 @@
 
 #include <hovercraft_sim/AppliedCommand.h>
 #include <hovercraft_sim/EngineStatus.h>
+#include <hovercraft_sim/State.h>
 #include <ros/node_handle.h>
 
 #include "../support/core_run.h"
@@ -116,7 +117,13 @@ TEST(BadCommands, AThrustBeyondTheLimitsIsSaturatedAndReported) {
   EXPECT_GE(last.left.applied, 0.0);
   EXPECT_EQ(last.right.commanded, 0.5);
   EXPECT_FALSE(last.right.saturated);
-  EXPECT_EQ(allReported(recording, "Saturated commands").back(), 1);
+  for (const auto& state : recording.messages<hovercraft_sim::State>("/hovercraft/state")) {
+    ASSERT_LE(state.thrust[0], 4.5) << "tick " << state.tick;
+    ASSERT_GE(state.thrust[1], 0.0) << "tick " << state.tick;
+  }
+  const std::vector<int> saturations = allReported(recording, "Saturated commands");
+  ASSERT_FALSE(saturations.empty());
+  EXPECT_EQ(saturations.back(), 1);
 }
 
 }  // namespace

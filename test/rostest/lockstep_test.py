@@ -6,6 +6,7 @@ import importlib.util
 import os
 import pathlib
 import random
+import signal
 import subprocess
 import sys
 import tempfile
@@ -16,13 +17,15 @@ import dynamic_reconfigure.client
 import rosgraph
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Pose, Twist, Wrench
 from hovercraft_sim.msg import State, Telemetry, ThrustCommand
 from hovercraft_sim.srv import ApplyWrench, Reset, SetState, Snapshot, Step
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
 from std_srvs.srv import Trigger
 
-from ros_waiting import DEADLINE, service, wait_until
+from ros_waiting import DEADLINE, service, snapshot_now, wait_until
 
 PERIODS = 40
 PERIOD_TICKS = 50
@@ -66,7 +69,7 @@ class Controller:
         self.publisher.publish(command)
 
     def fly(self, delay):
-        """The hashes of the first periods of a new episode, with delay() s of thinking each time; None: others command."""
+        """Hashes of the first periods of a new episode, with delay() s of thinking each time; None: others command."""
         service('pause', Trigger)()
         episode = service('reset', Reset)().episode
         self.delay = delay
@@ -83,20 +86,31 @@ def thrust_publishers():
 
 
 @contextlib.contextmanager
-def controller_in_cpp():
-    command = ['rosrun', 'hovercraft_sim', 'hold_heading', f'_heading:={HEADING}', f'_speed:={SPEED}']
-    process = subprocess.Popen(command)
+def controller(*program):
+    """One of the examples, as a process."""
+    process = subprocess.Popen([*program, f'_heading:={HEADING}', f'_speed:={SPEED}'])
     try:
         yield
     finally:
-        process.terminate()
-        process.wait()
+        process.send_signal(signal.SIGINT)  # so that the master hears of its end
+        try:
+            process.wait(DEADLINE)
+        finally:
+            process.kill()
+            process.wait()
+
+
+def controller_in_cpp():
+    return controller('rosrun', 'hovercraft_sim', 'hold_heading')
+
+
+def controller_in_python():
+    return controller(sys.executable, str(EXAMPLE))
 
 
 def tick_now():
     """Where the node stands, whether it waits or not."""
-    with tempfile.TemporaryDirectory() as folder:
-        return service('save', Snapshot)(os.path.join(folder, 'snapshot.yaml')).tick
+    return snapshot_now()['tick']
 
 
 class LockstepTest(unittest.TestCase):
@@ -191,22 +205,30 @@ class LockstepTest(unittest.TestCase):
                 process.kill()
                 process.wait()
 
-    def test_the_example_in_cpp_flies_as_the_one_in_python(self):
-        in_python = CONTROLLER.fly(lambda: 0.0)
-        service('pause', Trigger)()
-        with controller_in_cpp():
-            wait_until(lambda: thrust_publishers() == 2, 'the controller in C++')
-            self.assertEqual(CONTROLLER.fly(None), in_python)
+    def test_the_examples_fly_as_the_function_that_they_share(self):
+        here = CONTROLLER.fly(lambda: 0.0)
+        for example in (controller_in_cpp, controller_in_python):
+            service('pause', Trigger)()
+            wait_until(lambda: thrust_publishers() == 1, 'this controller alone')
+            with example():
+                wait_until(lambda: thrust_publishers() == 2, 'the controller of the example')
+                self.assertEqual(CONTROLLER.fly(None), here, example.__name__)
 
     def test_who_is_waited_for_is_named_and_may_come_late(self):
-        named = []
-        subscriber = rospy.Subscriber('/hovercraft_sim/telemetry', Telemetry,
-                                      lambda message: named.append(message.waiting_for))
+        telemetry, diagnostics, log = [], [], []
+        subscribers = [
+            rospy.Subscriber('/hovercraft_sim/telemetry', Telemetry, lambda m: telemetry.append(m.waiting_for)),
+            rospy.Subscriber('/diagnostics', DiagnosticArray,
+                             lambda m: diagnostics.extend(status.message for status in m.status)),
+            rospy.Subscriber('/rosout', Log, lambda m: log.append(m.msg))]
         CONTROLLER.delay = None
         service('reset', Reset)()
         service('resume', Trigger)()
-        wait_until(lambda: 'hovercraft' in named, 'telemetry that names the silent vehicle')
-        subscriber.unregister()
+        wait_until(lambda: 'hovercraft' in telemetry, 'telemetry that names the silent vehicle')
+        wait_until(lambda: 'Waits for a command of hovercraft' in diagnostics, 'diagnostics that name it')
+        wait_until(lambda: any('no ThrustCommand of hovercraft ' in line for line in log), 'a log that names it')
+        for subscriber in subscribers:
+            subscriber.unregister()
         seen = len(CONTROLLER.hashes)
         with controller_in_cpp():
             wait_until(lambda: len(CONTROLLER.hashes) > seen + 10, 'states after a controller came')

@@ -6,11 +6,12 @@ import unittest
 
 import rospy
 import rostest
-from hovercraft_sim.msg import State, ThrustCommand
+from diagnostic_msgs.msg import DiagnosticArray
+from hovercraft_sim.msg import State, Telemetry, ThrustCommand
 from hovercraft_sim.srv import Reset
 from std_srvs.srv import Trigger
 
-from ros_waiting import service, wait_until
+from ros_waiting import service, snapshot_now, wait_until
 
 CRAFT = ('alpha', 'beta')
 PERIODS = 20
@@ -41,6 +42,13 @@ class Controller:
         self.publisher.publish(command)
 
 
+def drops_in(diagnostics):
+    """How many commands of alpha were dropped, by the last of the reports; None without one."""
+    counts = [int(entry.value) for array in diagnostics for status in array.status for entry in status.values
+              if status.name == 'hovercraft_sim: alpha: commands' and entry.key == 'Dropped commands']
+    return counts[-1] if counts else None
+
+
 class LockstepTwoVehiclesTest(unittest.TestCase):
     def begin(self, last_tick, delays):
         service('pause', Trigger)()
@@ -67,17 +75,28 @@ class LockstepTwoVehiclesTest(unittest.TestCase):
         self.assertEqual(self.fly(0.03, 0.0), at_once)
 
     def test_the_node_waits_for_both(self):
+        diagnostics, named = [], []
+        subscribers = [rospy.Subscriber('/diagnostics', DiagnosticArray, diagnostics.append),
+                       rospy.Subscriber('/hovercraft_sim/telemetry', Telemetry, lambda m: named.append(m.waiting_for))]
         episode = self.begin(0, (0.0, 0.0))
         self.wait_for(episode, PERIOD_TICKS)
+        wait_until(lambda: 'alpha' in named, 'telemetry that names the first of the two')
+        wait_until(lambda: drops_in(diagnostics) is not None, 'diagnostics')
+        drops = drops_in(diagnostics)
         alpha, beta = CONTROLLERS
         for _ in range(3):  # the others are too many, and dropped
             alpha.answer(alpha.states[episode, PERIOD_TICKS])
-        # A service is answered after what came before it; the node would have gone on by now.
+        wait_until(lambda: drops_in(diagnostics) == drops + 2, 'all answers of alpha')
+        wait_until(lambda: named[-1] == 'beta', 'telemetry that names the other one')
         service('pause', Trigger)()
         service('resume', Trigger)()
-        self.assertNotIn((episode, 2 * PERIOD_TICKS), alpha.states)
+        snapshot = snapshot_now()
+        self.assertEqual(snapshot['tick'], PERIOD_TICKS)
+        self.assertEqual([command['vehicle'] for command in snapshot['commands']], ['alpha'])
         beta.answer(beta.states[episode, PERIOD_TICKS])
         self.wait_for(episode, 2 * PERIOD_TICKS)
+        for subscriber in subscribers:
+            subscriber.unregister()
 
 
 if __name__ == '__main__':

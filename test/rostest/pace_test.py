@@ -8,7 +8,7 @@ import unittest
 import dynamic_reconfigure.client
 import rospy
 import rostest
-from hovercraft_sim.msg import AppliedCommand, Telemetry
+from hovercraft_sim.msg import AppliedCommand, State, Telemetry
 from hovercraft_sim.srv import Step
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
@@ -85,6 +85,29 @@ class PaceTest(unittest.TestCase):
             begin = time.monotonic()
             self.assertTrue(self.pause().success)
             self.expect_no_time_before([(due(self.step(0).tick), begin)])
+
+    def test_the_node_is_never_ahead_of_its_pace(self):
+        reached = []
+        states = rospy.Subscriber('/hovercraft/state', State, lambda state: reached.append(state.tick))
+        wait_until(lambda: states.get_num_connections() > 0, 'the states')
+        try:
+            for factor in (0.5, 1.0, 4.0):
+                self.assertTrue(self.pause().success)
+                self.set_pace(factor)
+                first = self.step(0).tick
+                flown = first + 1000 * factor  # long beside the time that the requests take
+                begin = time.monotonic()
+                self.assertTrue(self.resume().success)
+                wait_until(lambda tick=flown: reached and reached[-1] >= tick, f'tick {flown}')
+                self.assertTrue(self.pause().success)
+                end = time.monotonic()
+                ticks = self.step(0).tick - first
+                # A resumed run begins at the tick where it was: there is nothing to catch up. Deadlines are rounded to
+                # nanoseconds, which is less than a tick.
+                self.assertLessEqual(ticks, factor * (end - begin) / STEP + 1, factor)
+        finally:
+            self.set_pace(1.0)
+            states.unregister()
 
     def set_pace(self, factor):
         """What the node answers."""

@@ -1,9 +1,13 @@
 """What the Python rostests share: services of the node, and waiting on a condition with a deadline."""
 
+import os
+import tempfile
 import threading
 import time
 
 import rospy
+import yaml
+from hovercraft_sim.srv import Snapshot
 
 DEADLINE = 60.0  # s of wall time to wait for anything
 
@@ -20,3 +24,14 @@ def wait_until(condition, what):
         if time.monotonic() > deadline:
             raise AssertionError(f'waited {DEADLINE} s of wall time for {what}')
         threading.Event().wait(0.005)
+
+
+def snapshot_now():
+    """What the node would go on from, whether it waits or not."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, 'snapshot.yaml')
+        answer = service('save', Snapshot)(file)
+        if not answer.success:
+            raise AssertionError(answer.message)
+        with open(file) as snapshot:
+            return yaml.safe_load(snapshot)

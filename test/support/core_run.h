@@ -8,7 +8,8 @@
 
 namespace hovercraft_ros::testing {
 
-/// The bits of all that a state message says about the motion: everything but header and tick.
+/// The bits of all that a state message says about the motion: everything but header, tick, hash
+/// (which is of the tick too) and the number of commands.
 std::string bitsOfMotion(hovercraft_sim::State state);
 
 /// Runs the recorded scenario with the recorded commands in the core alone, and expects every
