@@ -23,14 +23,16 @@ std::size_t at(std::int32_t index) {
 /// One run of qhull: its state, and what it has to say, freed at the end.
 class Qhull {
  public:
-  explicit Qhull(const std::vector<Vector3>& points) {
+  /// @param coplanar m: facets that are bent inward by less become one; 0: by rounding alone.
+  Qhull(const std::vector<Vector3>& points, double coplanar) {
     coordinates_.reserve(3 * points.size());
     for (const Vector3& p : points) coordinates_.insert(coordinates_.end(), {p.x(), p.y(), p.z()});
     messages_ = open_memstream(&text_, &length_);
     qh_zero(&state_, messages_);
-    char command[] = "qhull Pp";
+    std::string command = "qhull Pp";
+    if (coplanar > 0.0) command += fmt::format(" C-{}", coplanar);
     exit_code_ = qh_new_qhull(&state_, 3, static_cast<int>(points.size()), coordinates_.data(),
-                              False, command, nullptr, messages_);
+                              False, command.data(), nullptr, messages_);
   }
   Qhull(const Qhull&) = delete;
   Qhull& operator=(const Qhull&) = delete;
@@ -131,44 +133,12 @@ std::vector<Vector3> compact(const std::vector<Vector3>& points, Rings& rings) {
   return vertices;
 }
 
-/// The greatest height of a vertex over the plane of a triangle that shares an edge with one of its
-/// own, or the greatest over all planes when `all` is set, and the vertex.
-struct Dent {
-  double depth = 0.0;
-  int vertex = 0;
-};
-
-Dent worstVertex(const TriangleMesh& mesh) {
-  Dent worst;
-  for (const auto& t : mesh.triangles) {
-    const Vector3& a = mesh.vertices[at(t[0])];
-    const Vector3 normal = cross(mesh.vertices[at(t[1])] - a, mesh.vertices[at(t[2])] - a);
-    const double area = norm(normal);
-    if (!(area > 0.0)) continue;
-    const Vector3 unit = normal / area;
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-      const double above = dot(unit, mesh.vertices[v] - a);
-      if (above > worst.depth) worst = {above, static_cast<int>(v)};
-    }
-  }
-  return worst;
-}
-
-}  // namespace
-
-ConvexPolyhedron convexHull(const std::vector<Vector3>& points, const std::string& name) {
-  if (points.size() < 4) {
-    throw std::invalid_argument(
-        fmt::format("{}: {} points have no convex hull, it takes at least 4", name, points.size()));
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].allFinite()) {
-      throw std::invalid_argument(fmt::format("{}: point {} is not finite", name, i));
-    }
-  }
+/// The body of the facets that qhull finds.
+ConvexPolyhedron hullBody(const std::vector<Vector3>& points, double coplanar,
+                          const std::string& name) {
   Rings rings;
   {
-    Qhull qhull(points);
+    Qhull qhull(points, coplanar);
     if (qhull.failed()) {
       throw std::invalid_argument(
           fmt::format("{}: no convex hull (points in one plane?): {}", name, qhull.message()));
@@ -184,32 +154,184 @@ ConvexPolyhedron convexHull(const std::vector<Vector3>& points, const std::strin
   }
 }
 
+double gapUnder(const PolyhedronData::Face& face, const Vector3& p) {
+  return face.offset - dot(face.normal, p);
+}
+
+/// The neighbour of a face whose plane is nearest to a point inside, or the face itself.
+std::int32_t nearestBeside(const ConvexPolyhedron& hull, std::int32_t start, const Vector3& p) {
+  const PolyhedronData::Face& from = hull.face(start);
+  std::int32_t nearest = start;
+  double least = gapUnder(from, p);
+  for (std::int32_t i = from.ring_begin; i < from.ring_begin + from.ring_count; ++i) {
+    const PolyhedronData::Edge& edge = hull.edge(hull.data().ring_edge[at(i)]);
+    const std::int32_t other = edge.face[edge.face[0] == start ? 1 : 0];
+    const double gap = gapUnder(hull.face(other), p);
+    if (gap >= least) continue;
+    least = gap;
+    nearest = other;
+  }
+  return nearest;
+}
+
+/// How deep (m) a point lies under the surface of the hull: the distance to the nearest plane.
+/// Exact if it is more than `enough`, otherwise only known to be no more. Goes from `face` to
+/// nearer ones first, which serves points that follow each other on a surface; ends at a face.
+double depthUnder(const ConvexPolyhedron& hull, const Vector3& p, double enough,
+                  std::int32_t& face) {
+  double least = gapUnder(hull.face(face), p);
+  for (std::int32_t step = 0; least > enough && step < hull.faceCount(); ++step) {
+    const std::int32_t next = nearestBeside(hull, face, p);
+    if (next == face) break;
+    face = next;
+    least = gapUnder(hull.face(face), p);
+  }
+  for (std::int32_t f = 0; least > enough && f < hull.faceCount(); ++f) {
+    const double gap = gapUnder(hull.face(f), p);
+    if (gap >= least) continue;
+    least = gap;
+    face = f;
+  }
+  return least;
+}
+
+/// One side of a triangle.
+struct Side {
+  int low;  // its vertices, ordered
+  int high;
+  int opposite;       // the third vertex
+  std::size_t owner;  // the triangle
+};
+
+/// The sides of all triangles, those of one edge next to each other.
+std::vector<Side> sortedSides(const TriangleMesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int from = t[k];
+      const int to = t[(k + 1) % 3];
+      sides.push_back({std::min(from, to), std::max(from, to), t[(k + 2) % 3], i});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    if (a.low != b.low) return a.low < b.low;
+    return a.high != b.high ? a.high < b.high : a.owner < b.owner;
+  });
+  return sides;
+}
+
+/// Twice the area of a triangle times its normal.
+Vector3 areaOf(const TriangleMesh& mesh, const std::array<int, 3>& t) {
+  const Vector3& a = mesh.vertices[at(t[0])];
+  return cross(mesh.vertices[at(t[1])] - a, mesh.vertices[at(t[2])] - a);
+}
+
+/// Whether an edge at which the surface bends inward lies deeper than `slack` (m) under the surface
+/// of the hull. A surface of one piece without such an edge is convex, and every dent has one: at
+/// its bottom, or where it reaches the surface again.
+bool hasDent(const TriangleMesh& mesh, const ConvexPolyhedron& hull, double slack) {
+  const std::vector<Side> sides = sortedSides(mesh);
+  std::int32_t face = 0;
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const Side& side = sides[i];
+    const Side& other = sides[i + 1];
+    if (side.low != other.low || side.high != other.high) continue;
+    const Vector3& a = mesh.vertices[at(side.low)];
+    const Vector3& b = mesh.vertices[at(side.high)];
+    const Vector3 normal = areaOf(mesh, mesh.triangles[side.owner]);
+    if (!(dot(normal, mesh.vertices[at(other.opposite)] - a) > 0.0)) continue;
+    for (const Vector3& p : {a, b, Vector3(0.5 * (a + b))}) {
+      if (depthUnder(hull, p, slack, face) > slack) return true;
+    }
+  }
+  return false;
+}
+
+/// The greatest height of a vertex over the plane of a triangle.
+struct Outside {
+  double height = 0.0;  // m
+  int vertex = 0;       // of the hull
+  std::array<int, 3> triangle{};
+};
+
+Outside worstVertex(const TriangleMesh& mesh, const ConvexPolyhedron& hull) {
+  Outside worst;
+  for (const auto& t : mesh.triangles) {
+    const Vector3 normal = areaOf(mesh, t);
+    const double area = norm(normal);
+    if (!(area > 0.0)) continue;
+    const int vertex = hull.supportVertex(normal);
+    const double height = dot(normal, hull.vertex(vertex) - mesh.vertices[at(t[0])]) / area;
+    if (height > worst.height) worst = {height, vertex, t};
+  }
+  return worst;
+}
+
+[[noreturn]] void refuseMesh(const TriangleMesh& mesh, const ConvexPolyhedron& hull,
+                             const std::string& name) {
+  const Outside worst = worstVertex(mesh, hull);
+  const Vector3& p = hull.vertex(worst.vertex);
+  const auto place = std::find(mesh.vertices.begin(), mesh.vertices.end(), p);
+  throw std::invalid_argument(fmt::format(
+      "{}: is not convex: vertex {} at ({}, {}, {}) lies {} m outside the plane of the triangle of "
+      "vertices {}, {}, {} (hull: true takes the convex hull instead)",
+      name, place - mesh.vertices.begin(), p.x(), p.y(), p.z(), worst.height, worst.triangle[0],
+      worst.triangle[1], worst.triangle[2]));
+}
+
+struct Extent {
+  double area = 0.0;    // m²
+  double volume = 0.0;  // m³
+};
+
+Extent extentOf(const PolyhedronData& body) {
+  Extent sum;
+  for (const PolyhedronData::Face& face : body.faces) {
+    double face_area = 0.0;
+    for (std::int32_t i = face.ring_begin; i < face.ring_begin + face.ring_count; ++i) {
+      const PolyhedronData::RingPlane& side = body.ring[at(i)];
+      const PolyhedronData::Edge& edge = body.edges[at(body.ring_edge[at(i)])];
+      face_area += 0.5 * edge.length * (dot(side.inward, body.center) - side.offset);
+    }
+    sum.area += face_area;
+    sum.volume += face_area * (face.offset - dot(face.normal, body.center)) / 3.0;
+  }
+  return sum;
+}
+
+}  // namespace
+
+ConvexPolyhedron convexHull(const std::vector<Vector3>& points, const std::string& name) {
+  if (points.size() < 4) {
+    throw std::invalid_argument(
+        fmt::format("{}: {} points have no convex hull, it takes at least 4", name, points.size()));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) {
+      throw std::invalid_argument(fmt::format("{}: point {} is not finite", name, i));
+    }
+  }
+  try {
+    return hullBody(points, 0.0, name);
+  } catch (const std::invalid_argument&) {
+    // Points that leave a plane or a line by some ten roundings can be too far out for qhull to
+    // merge their facets, and too near for the planes of these to be of use.
+    double largest = 0.0;
+    for (const Vector3& p : points) largest = std::max(largest, norm(p));
+    return hullBody(points, 0.5 * kPlanarSlack * largest, name);
+  }
+}
+
 ConvexPolyhedron polyhedronFromMesh(const TriangleMesh& mesh, NonConvexMesh choice,
                                     const std::string& name) {
   ConvexPolyhedron hull = convexHull(mesh.vertices, name);
   if (choice == NonConvexMesh::kTakeHull) return hull;
-  // A closed surface bounds its convex hull exactly when it encloses the same volume.
-  double area = 0.0;
-  double volume = 0.0;
-  for (const PolyhedronData::Face& face : hull.data().faces) {
-    double face_area = 0.0;
-    for (std::int32_t i = face.ring_begin; i < face.ring_begin + face.ring_count; ++i) {
-      const PolyhedronData::RingPlane& side = hull.data().ring[at(i)];
-      const PolyhedronData::Edge& edge = hull.edge(hull.data().ring_edge[at(i)]);
-      face_area += 0.5 * edge.length * (dot(side.inward, hull.data().center) - side.offset);
-    }
-    area += face_area;
-    volume += face_area * (face.offset - dot(face.normal, hull.data().center)) / 3.0;
-  }
-  const double rounding = kMeshDentSlack * hull.data().radius;
-  if (volume - signedVolume(mesh) > rounding * area) {
-    const Dent worst = worstVertex(mesh);
-    const Vector3& p = mesh.vertices[at(worst.vertex)];
-    throw std::invalid_argument(fmt::format(
-        "{}: is not convex: vertex {} at ({}, {}, {}) lies {} m outside the plane of a triangle "
-        "(hull: true takes the convex hull instead)",
-        name, worst.vertex, p.x(), p.y(), p.z(), worst.depth));
-  }
+  const Extent extent = extentOf(hull.data());
+  const double radius = hull.data().radius;
+  const bool has_gaps = extent.volume - signedVolume(mesh) > kMeshDentSlack * radius * extent.area;
+  if (has_gaps || hasDent(mesh, hull, kMeshDentDepth * radius)) refuseMesh(mesh, hull, name);
   return hull;
 }
 

@@ -13,6 +13,42 @@ namespace {
   throw std::invalid_argument("convex polygon: " + reason);
 }
 
+/// Squares of coordinates up to here stay far from the largest double.
+constexpr double kLargestCoordinate = 1e150;
+
+void checkFinite(const std::vector<Vector2>& points, const char* what) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector2& p = points[i];
+    if (std::abs(p.x) < kLargestCoordinate && std::abs(p.y) < kLargestCoordinate) continue;
+    refuse(fmt::format("{} {} at ({}, {}) m is not finite or too large", what, i, p.x, p.y));
+  }
+}
+
+Vector2 directionOf(const Vector2& along) {
+  return (1.0 / std::sqrt(dot(along, along))) * along;
+}
+
+/// Whether a polygon keeps its corner q between p and r: it turns left there by the same sine that
+/// checkTurns() computes.
+bool turnsLeft(const Vector2& p, const Vector2& q, const Vector2& r) {
+  return cross(directionOf(q - p), directionOf(r - q)) > 0.0;
+}
+
+/// Leaves out the corners that are straight to rounding, also at both ends of the chains.
+void dropStraightCorners(std::vector<Vector2>& ring) {
+  for (std::size_t i = 0; i < ring.size() && ring.size() > 2;) {
+    const Vector2& before = ring[(i + ring.size() - 1) % ring.size()];
+    const Vector2& after = ring[(i + 1) % ring.size()];
+    const bool goes_on = dot(ring[i] - before, after - ring[i]) > 0.0;  // not the tip of a needle
+    if (!goes_on || turnsLeft(before, ring[i], after)) {
+      ++i;
+      continue;
+    }
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+    i = 0;  // its neighbours have turned
+  }
+}
+
 VoronoiPlane plane(const Vector2& normal, const Vector2& point, Feature behind) {
   return {{normal.x, normal.y, 0.0}, dot(normal, point), behind};
 }
@@ -23,13 +59,15 @@ ConvexPolygon::ConvexPolygon(std::vector<Vector2> vertices) : vertices_(std::mov
   if (vertices_.size() < 3) {
     refuse(fmt::format("has {} vertices, it takes at least 3", vertices_.size()));
   }
+  checkFinite(vertices_, "vertex");
   for (int i = 0; i < vertexCount(); ++i) {
     const Vector2 along = vertex(next(i)) - vertex(i);
     const double length = std::sqrt(dot(along, along));
-    if (!(length > 0.0) || !(length < 1e300)) {
-      refuse(fmt::format("vertex {} is not finite or is the same as the one before", next(i)));
+    if (!(length > 0.0)) {
+      refuse(fmt::format("vertices {} and {} are both at ({}, {})", i, next(i), vertex(i).x,
+                         vertex(i).y));
     }
-    edges_.push_back({vertex(i), (1.0 / length) * along, length});
+    edges_.push_back({vertex(i), directionOf(along), length});
     radius_ = std::max(radius_, std::sqrt(dot(vertex(i), vertex(i))));
   }
   checkTurns();
@@ -77,22 +115,32 @@ std::vector<VoronoiPlane> ConvexPolygon::voronoiPlanes(Feature feature) const {
 }
 
 ConvexPolygon convexHull(std::vector<Vector2> points) {
+  checkFinite(points, "point");
   const auto less = [](const Vector2& a, const Vector2& b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;
   };
+  const auto same = [](const Vector2& a, const Vector2& b) { return a.x == b.x && a.y == b.y; };
   std::sort(points.begin(), points.end(), less);
+  points.erase(std::unique(points.begin(), points.end(), same), points.end());
+  if (points.size() < 3) {
+    refuse(fmt::format("{} different points have no hull, it takes at least 3", points.size()));
+  }
   std::vector<Vector2> chain;
   const auto add = [&chain](const Vector2& p, std::size_t floor) {
-    while (chain.size() >= floor + 2 &&
-           cross(chain.back() - chain[chain.size() - 2], p - chain.back()) <= 0.0) {
+    while (chain.size() >= floor + 2 && !turnsLeft(chain[chain.size() - 2], chain.back(), p)) {
       chain.pop_back();
     }
     chain.push_back(p);
   };
   for (const Vector2& p : points) add(p, 0);
   const std::size_t lower = chain.size();
-  for (std::size_t i = points.size(); i-- > 0;) add(points[i], lower - 1);
-  if (!chain.empty()) chain.pop_back();
+  for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower - 1);
+  chain.pop_back();
+  dropStraightCorners(chain);
+  if (chain.size() < 3) {
+    refuse(fmt::format("the points lie on one line from ({}, {}) to ({}, {})", points.front().x,
+                       points.front().y, points.back().x, points.back().y));
+  }
   return ConvexPolygon(std::move(chain));
 }
 

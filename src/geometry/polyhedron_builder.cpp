@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/double_double.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -162,19 +163,51 @@ std::vector<HalfEdge> sortedHalfEdges(const PolyhedronData& data, const Rings& r
   return halves;
 }
 
-/// Newell's normal: the sum over the sides, good for any number of vertices.
-Face facePlane(const std::vector<Vector3>& vertices, const std::vector<std::int32_t>& ring,
-               std::size_t index) {
+/// Twice the area of a face times its normal: the sum over the triangles from its first vertex.
+struct Area {
+  Vector3 vector = Vector3::Zero();
+  double products = 0.0;  // of the lengths of the sides that were multiplied: what rounding counts
+};
+
+Area areaOf(const std::vector<Vector3>& vertices, const std::vector<std::int32_t>& ring) {
+  Area area;
   const Vector3& origin = vertices[at(ring[0])];
-  Vector3 area = Vector3::Zero();
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
     const Vector3 a = vertices[at(ring[i])] - origin;
     const Vector3 b = vertices[at(ring[i + 1])] - origin;
-    area += cross(a, b);
+    area.vector += cross(a, b);
+    area.products += norm(a) * norm(b);
   }
-  const double size = norm(area);
-  if (!(size > 0.0)) refuse(fmt::format("face {} has no area", index));
-  Face face{area / size, 0.0, 0, static_cast<std::int32_t>(ring.size()), -1};
+  return area;
+}
+
+/// The same of 106 bits, rounded at the end: each component to half a unit in the last place.
+Vector3 preciseArea(const std::vector<Vector3>& vertices, const std::vector<std::int32_t>& ring) {
+  const PreciseVector origin(vertices[at(ring[0])]);
+  PreciseVector area;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    area = area + cross(PreciseVector(vertices[at(ring[i])]) - origin,
+                        PreciseVector(vertices[at(ring[i + 1])]) - origin);
+  }
+  return area.rounded();
+}
+
+/// The normal of a sliver is lost in rounding: over the length of the body its plane would miss
+/// vertices that lie in it. It is summed more precisely.
+Vector3 faceNormal(const std::vector<Vector3>& vertices, const std::vector<std::int32_t>& ring,
+                   std::size_t index) {
+  const Area area = areaOf(vertices, ring);
+  const double size = norm(area.vector);
+  if (size > kSliver * area.products) return area.vector / size;
+  const Vector3 precise = preciseArea(vertices, ring);
+  const double precise_size = norm(precise);
+  if (!(precise_size > 0.0)) refuse(fmt::format("face {} has no area", index));
+  return precise / precise_size;
+}
+
+Face facePlane(const std::vector<Vector3>& vertices, const std::vector<std::int32_t>& ring,
+               std::size_t index) {
+  Face face{faceNormal(vertices, ring, index), 0.0, 0, static_cast<std::int32_t>(ring.size()), -1};
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   for (const std::int32_t v : ring) {

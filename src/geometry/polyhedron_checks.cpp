@@ -28,8 +28,35 @@ double height(const PolyhedronData& data, std::int32_t face, std::int32_t vertex
          data.faces[at(face)].offset;
 }
 
+[[noreturn]] void refuse(const std::string& reason) {
+  throw std::invalid_argument("convex polyhedron: " + reason);
+}
+
+/// A vertex with its position.
+std::string describe(const PolyhedronData& data, std::int32_t vertex) {
+  const Vector3& p = data.vertices[at(vertex)].p;
+  return fmt::format("vertex {} at ({}, {}, {})", vertex, p.x(), p.y(), p.z());
+}
+
+/// Says so if all vertices lie in the plane of one face.
+void checkThickness(const PolyhedronData& data, double tolerance) {
+  for (std::size_t f = 0; f < data.faces.size(); ++f) {
+    double farthest = 0.0;
+    for (std::size_t v = 0; v < data.vertices.size(); ++v) {
+      farthest = std::max(farthest, std::abs(height(data, static_cast<std::int32_t>(f),
+                                                    static_cast<std::int32_t>(v))));
+    }
+    if (farthest > tolerance) continue;
+    refuse(fmt::format(
+        "the body is flat: no vertex lies more than {} m from the plane of face {}, more than {} m "
+        "is a thickness",
+        farthest, f, tolerance));
+  }
+}
+
 /// Every vertex against every face: only to say what is wrong.
-[[noreturn]] void refuseWorst(const PolyhedronData& data, const char* what) {
+[[noreturn]] void refuseWorst(const PolyhedronData& data, const char* what, double tolerance) {
+  checkThickness(data, tolerance);
   double worst = 0.0;
   std::int32_t worst_vertex = 0;
   std::int32_t worst_face = 0;
@@ -43,10 +70,8 @@ double height(const PolyhedronData& data, std::int32_t face, std::int32_t vertex
       }
     }
   }
-  const Vector3& p = data.vertices[at(worst_vertex)].p;
-  throw std::invalid_argument(fmt::format(
-      "convex polyhedron: {}: vertex {} at ({}, {}, {}) lies {} m outside the plane of face {}",
-      what, worst_vertex, p.x(), p.y(), p.z(), worst, worst_face));
+  refuse(fmt::format("{}: {} lies {} m outside the plane of face {}, at most {} m is rounding",
+                     what, describe(data, worst_vertex), worst, worst_face, tolerance));
 }
 
 /// Diagonal of the bounding box.
@@ -65,18 +90,58 @@ double slack(const PolyhedronData& data) {
   return kPlanarSlack * std::max(data.radius, extent(data));
 }
 
+/// Every vertex of a face against every side of it: only to say what is wrong.
+[[noreturn]] void refuseFace(const PolyhedronData& data, std::int32_t face, double tolerance) {
+  const Face& polygon = data.faces[at(face)];
+  const std::int32_t end = polygon.ring_begin + polygon.ring_count;
+  double worst = 0.0;
+  std::int32_t worst_vertex = 0;
+  Edge worst_side{};
+  for (std::int32_t i = polygon.ring_begin; i < end; ++i) {
+    for (std::int32_t k = polygon.ring_begin; k < end; ++k) {
+      const std::int32_t vertex = vertexAfter(data, polygon, k);
+      const Edge& side = data.edges[at(data.ring_edge[at(i)])];
+      const double beyond = dot(data.ring[at(i)].inward, side.p - data.vertices[at(vertex)].p);
+      if (beyond <= worst) continue;
+      worst = beyond;
+      worst_vertex = vertex;
+      worst_side = side;
+    }
+  }
+  refuse(fmt::format(
+      "face {} is not a convex polygon: {} lies {} m beyond its side between vertices {} and {}, "
+      "at most {} m is rounding",
+      face, describe(data, worst_vertex), worst, worst_side.vertex[0], worst_side.vertex[1],
+      tolerance));
+}
+
 void checkEdge(const PolyhedronData& data, const Edge& edge, double tolerance) {
   for (int side = 0; side < 2; ++side) {
     const Face& other = data.faces[at(edge.face[1 - side])];
     const std::int32_t next = vertexAfter(data, other, edge.ring[1 - side]);
-    if (height(data, edge.face[side], next) > tolerance) refuseWorst(data, "is not convex");
+    if (height(data, edge.face[side], next) > tolerance) {
+      refuseWorst(data, "is not convex", tolerance);
+    }
     const Face& own = data.faces[at(edge.face[side])];
     const Vector3 beyond = data.vertices[at(vertexAfter(data, own, edge.ring[side]))].p - edge.p;
-    if (dot(edge.inward[side], beyond) < -tolerance) {
-      throw std::invalid_argument(
-          fmt::format("convex polyhedron: face {} is not a convex polygon", edge.face[side]));
-    }
+    if (dot(edge.inward[side], beyond) < -tolerance) refuseFace(data, edge.face[side], tolerance);
   }
+}
+
+void checkPlane(const PolyhedronData& data, std::int32_t f, double tolerance) {
+  const Face& face = data.faces[at(f)];
+  double worst = 0.0;
+  std::int32_t worst_vertex = 0;
+  for (std::int32_t i = face.ring_begin; i < face.ring_begin + face.ring_count; ++i) {
+    const std::int32_t vertex = vertexAfter(data, face, i);
+    const double away = std::abs(height(data, f, vertex));
+    if (away <= worst) continue;
+    worst = away;
+    worst_vertex = vertex;
+  }
+  if (worst <= tolerance) return;
+  refuse(fmt::format("face {} is not plane: {} lies {} m from its plane, at most {} m is rounding",
+                     f, describe(data, worst_vertex), worst, tolerance));
 }
 
 /// How many faces a ray from the centre meets: one, unless the surface winds around twice. Goes
@@ -110,15 +175,9 @@ void checkConvex(const PolyhedronData& data) {
   const double tolerance = slack(data);
   for (std::size_t f = 0; f < data.faces.size(); ++f) {
     const Face& face = data.faces[f];
-    for (std::int32_t i = face.ring_begin; i < face.ring_begin + face.ring_count; ++i) {
-      const Edge& edge = data.edges[at(data.ring_edge[at(i)])];
-      const std::int32_t start = edge.vertex[edge.ring[0] == i ? 0 : 1];
-      if (std::abs(height(data, static_cast<std::int32_t>(f), start)) > tolerance) {
-        throw std::invalid_argument(fmt::format("convex polyhedron: face {} is not plane", f));
-      }
-    }
+    checkPlane(data, static_cast<std::int32_t>(f), tolerance);
     if (dot(face.normal, data.center) - face.offset >= 0.0) {
-      refuseWorst(data, "the faces do not look outward from one inner point");
+      refuseWorst(data, "the faces do not look outward from one inner point", tolerance);
     }
   }
   for (const Edge& edge : data.edges) checkEdge(data, edge, tolerance);
@@ -126,7 +185,8 @@ void checkConvex(const PolyhedronData& data) {
   const auto edges = static_cast<long>(data.edges.size());
   const auto faces = static_cast<long>(data.faces.size());
   if (vertices - edges + faces != 2 || windings(data) != 1) {
-    throw std::invalid_argument("convex polyhedron: the surface is not one closed shell");
+    checkThickness(data, tolerance);
+    refuse("the surface is not one closed shell");
   }
 }
 

@@ -296,7 +296,7 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
   checkShells(mesh, name);
 }
 
-TriangleMesh loadTriangleMesh(const std::string& path) {
+TriangleMesh loadSurface(const std::string& path) {
   const std::string name = "mesh file '" + path + "'";
   if (!std::ifstream(path)) refuse(name, "does not exist or cannot be read");
   Assimp::Importer importer;
@@ -308,7 +308,13 @@ TriangleMesh loadTriangleMesh(const std::string& path) {
   Welder welder;
   addNode(*scene, *scene->mRootNode, Affine{}, name, welder);
   TriangleMesh mesh = welder.release();
-  checkClosed(mesh, name);
+  if (mesh.triangles.empty()) refuse(name, "no triangles");
+  return mesh;
+}
+
+TriangleMesh loadTriangleMesh(const std::string& path) {
+  TriangleMesh mesh = loadSurface(path);
+  checkClosed(mesh, "mesh file '" + path + "'");
   return mesh;
 }
 

@@ -54,7 +54,7 @@ struct Body {
   ConvexPolyhedron polyhedron;
 
   Body(const std::string& path, NonConvexMesh choice)
-      : mesh(loadTriangleMesh(path)),
+      : mesh(choice == NonConvexMesh::kTakeHull ? loadSurface(path) : loadTriangleMesh(path)),
         polyhedron(polyhedronFromMesh(mesh, choice, "mesh file '" + path + "'")) {}
 
   /// The vertices of a feature, counted from 0 in the order of their first use in the file.

@@ -63,7 +63,7 @@ PointsShape parseMesh(const ConfigReader& reader, const ScenarioSource& source) 
   const std::string path = meshPath(reader, source);
   try {
     return PointsShape{
-        polyhedronFromMesh(loadTriangleMesh(path), NonConvexMesh::kTakeHull, path).vertices()};
+        polyhedronFromMesh(loadSurface(path), NonConvexMesh::kTakeHull, path).vertices()};
   } catch (const std::invalid_argument& error) {
     reader.fail("file", error.what());
   }

@@ -12,8 +12,8 @@
 
 namespace hovercraft {
 
-/// One answer against brute force: status, distance or depth, certificate, witness points.
-/// @param slack allowed error of the distance, of the size.
+/// One answer against brute force: status, distance or depth, certificate, witness points; each
+/// within 1e-12 of the size.
 inline void checkAgainstBruteForce(const ConvexPolyhedron& A, const Pose& X_WA,
                                    const ConvexPolyhedron& B, const Pose& X_WB,
                                    const ClosestFeatures& c) {

@@ -54,6 +54,25 @@ TEST(ClosestFeatures, AgreeWithBruteForceOverAllPairsOfFeatures) {
   }
 }
 
+/// A box in a skew frame, given by a grid of points on its faces, as single precision keeps them
+/// where the grid has inner points: slivers along its edges.
+ConvexPolyhedron turnedBox(const Vector3& size, int cells) {
+  const Matrix3 R = rotationMatrix(normalized(Quaternion{0.9, {0.1, -0.3, 0.2}}));
+  std::vector<Vector3> points;
+  const auto outer = [cells](int i) { return i == 0 || i == cells; };
+  for (int x = 0; x <= cells; ++x) {
+    for (int y = 0; y <= cells; ++y) {
+      for (int z = 0; z <= cells; ++z) {
+        if (!outer(x) && !outer(y) && !outer(z)) continue;
+        Vector3 p = times(R, size.cwiseProduct(Vector3(x, y, z) / cells));
+        if (cells > 1) p = p.cast<float>().cast<double>();
+        points.push_back(p);
+      }
+    }
+  }
+  return convexHull(points, "turned box");
+}
+
 std::vector<ConvexPolyhedron> degenerateBodies() {
   std::vector<ConvexPolyhedron> bodies;
   bodies.push_back(boxPolyhedron(Vector3(1, 1, 1)));
@@ -69,6 +88,9 @@ std::vector<ConvexPolyhedron> degenerateBodies() {
     pyramid.emplace_back(std::cos(kPi * i / 12), std::sin(kPi * i / 12), 0.0);
   }
   bodies.push_back(convexHull(pyramid, "pyramid"));
+  bodies.push_back(turnedBox(Vector3(1, 1e-6, 1e-6), 1));  // corners that rounding has moved
+  bodies.push_back(turnedBox(Vector3(1, 1, 1e-6), 1));
+  bodies.push_back(turnedBox(Vector3(1, 1, 1), 4));
   return bodies;
 }
 

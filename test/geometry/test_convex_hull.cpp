@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -10,6 +13,38 @@
 
 namespace hovercraft {
 namespace {
+
+/// The unit cube around the origin, each face of n x n squares of two triangles.
+TriangleMesh tessellatedCube(int n) {
+  TriangleMesh mesh;
+  std::map<std::array<int, 3>, int> indices;
+  const auto index_of = [&](const std::array<int, 3>& cell) {
+    const auto [entry, is_new] = indices.try_emplace(cell, static_cast<int>(mesh.vertices.size()));
+    if (is_new)
+      mesh.vertices.push_back(Vector3(cell[0], cell[1], cell[2]) / n - Vector3(0.5, 0.5, 0.5));
+    return entry->second;
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const bool top : {false, true}) {
+      const auto corner = [&](int i, int j) {
+        std::array<int, 3> cell{};
+        cell[axis] = top ? n : 0;
+        cell[(axis + 1) % 3] = top ? i : j;  // the other way round seen from outside
+        cell[(axis + 2) % 3] = top ? j : i;
+        return index_of(cell);
+      };
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          const int a = corner(i, j);
+          const int c = corner(i + 1, j + 1);
+          mesh.triangles.push_back({a, corner(i + 1, j), c});
+          mesh.triangles.push_back({a, c, corner(i, j + 1)});
+        }
+      }
+    }
+  }
+  return mesh;
+}
 
 // A grid of 5^3 points of a turned cube: eight corners, six square faces.
 TEST(ConvexHull, MergesCoplanarFacetsAndLeavesOutPointsOnThem) {
@@ -27,6 +62,29 @@ TEST(ConvexHull, MergesCoplanarFacetsAndLeavesOutPointsOnThem) {
     EXPECT_EQ(hull.vertexCount(), 8);
     EXPECT_EQ(hull.edgeCount(), 12);
     EXPECT_EQ(hull.faceCount(), 6);
+  }
+}
+
+// Noise leaves slivers between the points of an edge, and near 1e-14 facets that qhull does not
+// merge although their points have no plane of their own.
+TEST(ConvexHull, TakesNoisyGridsOnATurnedCube) {
+  RandomBodies random(13);
+  for (const double noise : {5e-15, 1e-14, 1e-13, 1e-12, 1e-10, 1e-7}) {
+    for (int sample = 0; sample < 40; ++sample) {
+      const Matrix3 R = rotationMatrix(random.orientation());
+      std::vector<Vector3> points = tessellatedCube(5).vertices;
+      for (Vector3& p : points)
+        p = times(R, p) + random.uniform(-noise, noise) * random.unitVector();
+      EXPECT_NO_THROW({
+        const ConvexPolyhedron hull = convexHull(points, "grid");
+        for (const Vector3& p : points) {
+          for (int f = 0; f < hull.faceCount(); ++f) {
+            EXPECT_LE(dot(hull.face(f).normal, p) - hull.face(f).offset, 1e-13);
+          }
+        }
+      }) << "noise "
+         << noise << ", sample " << sample;
+    }
   }
 }
 
@@ -63,6 +121,109 @@ TEST(PolyhedronFromMesh, MergesTheTrianglesOfACube) {
   const ConvexPolyhedron cube = polyhedronFromMesh(mesh, NonConvexMesh::kRefuse, "cube");
   EXPECT_EQ(cube.vertexCount(), 8);
   EXPECT_EQ(cube.faceCount(), 6);
+}
+
+// As an OBJ of six decimals keeps it.
+TEST(PolyhedronFromMesh, TakesATurnedTessellatedCubeOfSixDecimals) {
+  RandomBodies random(14);
+  for (const int n : {1, 6, 12}) {
+    for (int sample = 0; sample < 20; ++sample) {
+      const Matrix3 R = rotationMatrix(random.orientation());
+      TriangleMesh mesh = tessellatedCube(n);
+      for (Vector3& p : mesh.vertices) {
+        p = times(R, p);
+        for (int axis = 0; axis < 3; ++axis) {
+          p[axis] = static_cast<float>(std::round(1e6 * p[axis]) / 1e6);
+        }
+      }
+      EXPECT_NO_THROW(polyhedronFromMesh(mesh, NonConvexMesh::kRefuse, "cube"))
+          << n << " squares, sample " << sample;
+    }
+  }
+}
+
+/// The tessellated cube with one inner vertex of its top (the one that is nearest its middle)
+/// moved to a height.
+TriangleMesh dented(int n, double z) {
+  TriangleMesh mesh = tessellatedCube(n);
+  const auto squared = [](const Vector3& p) { return squaredNorm(p - Vector3(0, 0, 0.5)); };
+  auto nearest = mesh.vertices.begin();
+  for (auto p = mesh.vertices.begin(); p != mesh.vertices.end(); ++p) {
+    if (squared(*p) < squared(*nearest)) nearest = p;
+  }
+  nearest->z() = z;
+  return mesh;
+}
+
+/// The unit cube with a pit in the middle of its top, 2 mm wide and 0.8 m deep.
+TriangleMesh cubeWithAPit() {
+  TriangleMesh mesh = tessellatedCube(1);
+  std::array<int, 4> corners{};  // of the top, counter-clockwise
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vector3& p = mesh.vertices[v];
+    if (p.z() < 0.0) continue;
+    const std::size_t quarter = p.y() < 0.0 ? (p.x() < 0.0 ? 0 : 1) : (p.x() < 0.0 ? 3 : 2);
+    corners[quarter] = static_cast<int>(v);
+  }
+  const auto in_top = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)].z() > 0.0; };
+  auto& triangles = mesh.triangles;
+  triangles.erase(
+      std::remove_if(triangles.begin(), triangles.end(),
+                     [&](const auto& t) { return in_top(t[0]) && in_top(t[1]) && in_top(t[2]); }),
+      triangles.end());
+  mesh.vertices.insert(mesh.vertices.end(), {{-1e-3, -1e-3, 0.5},
+                                             {1e-3, -1e-3, 0.5},
+                                             {1e-3, 1e-3, 0.5},
+                                             {-1e-3, 1e-3, 0.5},
+                                             {0.0, 0.0, -0.3}});
+  for (int i = 0; i < 4; ++i) {
+    const int next = (i + 1) % 4;
+    const int a = corners[static_cast<std::size_t>(i)];
+    const int b = corners[static_cast<std::size_t>(next)];
+    triangles.push_back({a, b, 8 + next});
+    triangles.push_back({a, 8 + next, 8 + i});
+    triangles.push_back({8 + i, 8 + next, 12});
+  }
+  return mesh;
+}
+
+// The pit takes 0.8 * 4e-6 / 3 = 1.1e-6 m^3, which 2e-7 m over the surface of the cube would: less
+// than the rounding of a mesh file. A dent of one vertex is rounding up to kMeshDentDepth of the
+// greatest coordinate, 2e-6 m here.
+TEST(PolyhedronFromMesh, RefusesADeepNarrowDent) {
+  const auto message = [](const TriangleMesh& mesh) -> std::string {
+    EXPECT_NO_THROW(checkClosed(mesh, "mesh"));
+    try {
+      polyhedronFromMesh(mesh, NonConvexMesh::kRefuse, "pit");
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(cubeWithAPit()).find("is not convex: vertex "), std::string::npos);
+  EXPECT_NE(message(dented(40, 0.5 - 1e-5)).find("is not convex: vertex "), std::string::npos);
+  EXPECT_EQ(message(dented(40, 0.5 - 1e-6)), "");
+  EXPECT_EQ(message(dented(40, 0.5)), "");
+  // A groove of 1 mm along an edge of the cube: all its vertices are on the surface of the hull.
+  const double g = 0.5 - 1e-3;
+  TriangleMesh groove;
+  for (const double x : {-0.5, 0.5}) {
+    for (const auto& yz : std::vector<std::array<double, 2>>{
+             {-0.5, -0.5}, {0.5, -0.5}, {0.5, g}, {g, g}, {g, 0.5}, {-0.5, 0.5}}) {
+      groove.vertices.emplace_back(x, yz[0], yz[1]);
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    const int next = (i + 1) % 6;
+    groove.triangles.push_back({i, next, 6 + next});
+    groove.triangles.push_back({i, 6 + next, 6 + i});
+  }
+  for (const int i : {0, 1, 4, 5}) {  // from the inner corner, which sees all others
+    const int next = (i + 1) % 6;
+    groove.triangles.push_back({3, next, i});
+    groove.triangles.push_back({9, 6 + i, 6 + next});
+  }
+  EXPECT_NE(message(groove).find("is not convex: vertex "), std::string::npos);
 }
 
 TEST(PolyhedronFromMesh, RefusesANonConvexMeshOrTakesItsHull) {

@@ -65,11 +65,11 @@ TEST(ConvexPolyhedron, RefusesWhatIsNotAClosedConvexSurface) {
   expectRefused(infinite, kCubeRings, "vertex 3 is not finite");
   std::vector<Vector3> bent = kCubeVertices;
   bent[6].z() = 1.1;
-  expectRefused(bent, kCubeRings, "not plane");
+  expectRefused(bent, kCubeRings, "face 1 is not plane: vertex ");
+  expectRefused(bent, kCubeRings, " m from its plane, at most ");
   expectRefused({kCubeVertices[0]}, {}, "at least 4");
 }
 
-// A cube whose top is a pit: the bottom of the pit is vertex 8.
 TEST(ConvexPolyhedron, RefusesAFlatBodyOfManyVertices) {
   std::vector<Vector3> circle;
   Rings both(2);
@@ -79,7 +79,24 @@ TEST(ConvexPolyhedron, RefusesAFlatBodyOfManyVertices) {
     both[0].push_back(i);
     both[1].push_back(299 - i);
   }
-  EXPECT_NE(refusal(circle, both), "");
+  expectRefused(circle, both, "the body is flat: no vertex lies more than ");
+}
+
+// A prism whose long side is bent inward at vertex 1, by 0.1 m over 1 m: the line from vertex 0 to
+// 1 passes vertex 2 at 0.2 / sqrt(1.01) m.
+TEST(ConvexPolyhedron, RefusesAFaceThatIsNotAConvexPolygonAndSaysByHowMuch) {
+  std::vector<Vector3> vertices;
+  for (const double z : {1.0, 0.0}) {
+    for (const Vector3& p : {Vector3(0, 0, z), Vector3(1, 0.1, z), Vector3(2, 0, z),
+                             Vector3(2, 2, z), Vector3(0, 2, z)}) {
+      vertices.push_back(p);
+    }
+  }
+  Rings rings = {{0, 1, 2, 3, 4}, {9, 8, 7, 6, 5}};
+  for (std::int32_t i = 0; i < 5; ++i) rings.push_back({5 + i, 5 + (i + 1) % 5, (i + 1) % 5, i});
+  expectRefused(vertices, rings, "face 0 is not a convex polygon: vertex ");
+  expectRefused(vertices, rings, " lies 0.19900743");
+  expectRefused(vertices, rings, " m beyond its side between vertices ");
 }
 
 TEST(ConvexPolyhedron, NeighboursOfALargeOneLieNearEachOtherInMemory) {
@@ -101,6 +118,36 @@ TEST(ConvexPolyhedron, NeighboursOfALargeOneLieNearEachOtherInMemory) {
   EXPECT_LT(apart / fan, 0.1 * fan);
 }
 
+/// Corners of a body, turned.
+std::vector<Vector3> turned(std::vector<Vector3> points, RandomBodies& random) {
+  const Matrix3 R = rotationMatrix(random.orientation());
+  for (Vector3& p : points) p = times(R, p);
+  return points;
+}
+
+// In double the normal of a side of width e is off by 1e-16 / e, over the length 1 of the body far
+// more than the slack of 1e-13.
+TEST(ConvexPolyhedron, TakesTurnedNeedlesAndSheets) {
+  RandomBodies random(21);
+  for (const double e : {1e-3, 1e-5, 1e-6, 1e-7}) {
+    for (int sample = 0; sample < 50; ++sample) {
+      EXPECT_EQ(refusal(turned({{0, 0, 0}, {1, 0, 0}, {0.5, e, 0}, {0.5, 0, e}}, random),
+                        {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}),
+                "")
+          << "e " << e << ", sample " << sample;
+      for (const Vector3& size : {Vector3(1, e, e), Vector3(1, 1, e)}) {
+        std::vector<Vector3> box;
+        for (const Vector3& p : kCubeVertices) box.emplace_back(p.cwiseProduct(size));
+        EXPECT_EQ(refusal(turned(box, random), kCubeRings), "")
+            << "size " << size.transpose() << ", sample " << sample;
+      }
+    }
+  }
+}
+
+// A cube whose top is a pit: the bottom of the pit is vertex 8. From (0.5, 0.5, 0.75) each wall
+// rises to its own edge at z = 1, with the normal (0, 1, 2) / sqrt(5) and the like; the farthest
+// vertices are those of the edge opposite, 1 / sqrt(5) m outside.
 TEST(ConvexPolyhedron, NamesTheWorstVertexOfADent) {
   std::vector<Vector3> vertices = kCubeVertices;
   vertices.emplace_back(0.5, 0.5, 0.75);
@@ -110,7 +157,9 @@ TEST(ConvexPolyhedron, NamesTheWorstVertexOfADent) {
     rings.push_back({side[0], side[1], 8});
   }
   const std::string message = refusal(vertices, rings);
-  EXPECT_NE(message.find("is not convex: vertex "), std::string::npos) << message;
+  EXPECT_NE(message.find("is not convex: vertex 6 at (1, 1, 1) lies 0.447213595"),
+            std::string::npos)
+      << message;
 }
 
 // Points on either side of a plane fall into different regions, and the feature behind the plane

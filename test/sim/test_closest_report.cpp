@@ -44,5 +44,13 @@ TEST(ClosestReport, RefusesBadPosesAndMeshes) {
   EXPECT_NO_THROW(closestReport(request));
 }
 
+TEST(ClosestReport, HullTakesAnOpenMesh) {
+  ClosestRequest request = cubes();
+  request.mesh_b = "test/data/open_cube.obj";
+  EXPECT_THROW(closestReport(request), std::invalid_argument);
+  request.hull = true;
+  EXPECT_NO_THROW(closestReport(request));
+}
+
 }  // namespace
 }  // namespace hovercraft

@@ -39,7 +39,7 @@ class ConvexPolygon {
     double length;      // m
   };
 
-  /// @throws std::invalid_argument naming the worst vertex.
+  /// @throws std::invalid_argument naming the worst vertex. Coordinates are finite, below 1e150 m.
   explicit ConvexPolygon(std::vector<Vector2> vertices);
 
   int vertexCount() const { return static_cast<int>(vertices_.size()); }
@@ -62,7 +62,7 @@ class ConvexPolygon {
 };
 
 /// The convex hull of points of the plane (monotone chain, Andrew 1979), without points on its
-/// edges. @throws std::invalid_argument if they lie on one line.
+/// edges. @throws std::invalid_argument if they are not finite or lie on one line.
 ConvexPolygon convexHull(std::vector<Vector2> points);
 
 }  // namespace hovercraft

@@ -83,6 +83,10 @@ struct PolyhedronData {
 /// A convex polyhedron: vertices, edges and faces with their adjacency, and the planes of their
 /// Voronoi regions. Invariants, checked when made: closed, of one piece, faces plane and outward,
 /// convex, no vertex twice. It does not change afterwards.
+///
+/// Faces are taken as they are given: two that lie in one plane stay two, and a vertex may lie on
+/// the line between its neighbours in a ring. It is convexHull() and polyhedronFromMesh() that make
+/// one face of what is coplanar and leave out the vertices on its edges.
 class ConvexPolyhedron {
  public:
   /// @param vertices m. @param rings the vertices of each face, counter-clockwise seen from

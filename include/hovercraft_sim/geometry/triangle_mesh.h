@@ -15,7 +15,8 @@ struct TriangleMesh {
   std::vector<std::array<int, 3>> triangles;  // indices of vertices
 };
 
-/// The closed surface in a mesh file: OBJ or STL, or another format that assimp reads.
+/// The surface in a mesh file, closed or not, as for a convex hull, which takes only points: OBJ or
+/// STL, or another format that assimp reads.
 ///
 /// All meshes of the file are joined, each with the transforms of its nodes; materials, normals,
 /// points and lines are ignored, polygons are triangulated. Vertices at equal positions become one,
@@ -24,9 +25,13 @@ struct TriangleMesh {
 ///
 /// Assimp keeps coordinates in single precision, each exact to 2e-7 of itself (kMeshCoordinate): a
 /// volume computed from them is exact to some 6e-7, less so far from the origin of the file.
+/// @throws std::invalid_argument naming the file if it is missing, not readable, not a mesh, or
+/// without a triangle.
+TriangleMesh loadSurface(const std::string& path);
+
+/// The same of a body.
 /// @returns a mesh that passes checkClosed().
-/// @throws std::invalid_argument naming the file if it is missing, not readable, not a mesh, or not
-/// closed.
+/// @throws std::invalid_argument naming the file also if the surface is not closed.
 TriangleMesh loadTriangleMesh(const std::string& path);
 
 /// Checks that a mesh bounds a solid: it has triangles, each edge belongs to exactly two of them

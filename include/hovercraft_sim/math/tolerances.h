@@ -46,9 +46,19 @@ constexpr double kMaxNanoseconds = 1e15;
 /// pass 1e-12 of the size.
 constexpr double kPlanarSlack = 1e-13;
 
-/// Dent (-, of the greatest coordinate) up to which a mesh counts as convex: what the error of the
-/// coordinates that were read from a file makes of the height of a vertex over three others.
+/// Area of a face relative to the products of its sides (-) below which its normal takes more than
+/// a double: three roundings of 1.1e-16 of each product then tilt it by a tenth of kPlanarSlack.
+constexpr double kSliver = 0.03;
+
+/// Dent (-, of the greatest coordinate) up to which a mesh counts as convex, in the mean over the
+/// surface of its hull: what the error of the coordinates that were read from a file makes of the
+/// height of a vertex over three others.
 constexpr double kMeshDentSlack = 4.0 * kMeshCoordinate;
+
+/// The same for the deepest place. Six printed decimals move each coordinate of a turned cube of
+/// 1 m by up to 5e-7 m, so a vertex and the surface over it part by up to 1.7e-6 m, twice the
+/// greatest coordinate in micrometres.
+constexpr double kMeshDentDepth = 3.0 * kMeshDentSlack;
 
 /// Sine of the angle (-) by which a direction may leave a Voronoi region and still count as on its
 /// boundary: a hundred roundings of a unit vector. Between two features that are as parallel as
