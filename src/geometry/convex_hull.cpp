@@ -203,22 +203,30 @@ struct Side {
   std::size_t owner;  // the triangle
 };
 
-/// The sides of all triangles, those of one edge next to each other.
+/// The sides of all triangles, those of one edge next to each other: by counting for the lower
+/// vertex, by sorting the few at each.
 std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
+  std::vector<std::size_t> begins(mesh.vertices.size() + 1, 0);
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) ++begins[at(std::min(t[k], t[(k + 1) % 3])) + 1];
+  }
+  for (std::size_t v = 1; v < begins.size(); ++v) begins[v] += begins[v - 1];
+  std::vector<Side> sides(3 * mesh.triangles.size());
+  std::vector<std::size_t> ends(begins.begin(), begins.end() - 1);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
     for (std::size_t k = 0; k < 3; ++k) {
-      const int from = t[k];
-      const int to = t[(k + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), t[(k + 2) % 3], i});
+      const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+      sides[ends[at(low)]++] = {low, high, t[(k + 2) % 3], i};
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    if (a.low != b.low) return a.low < b.low;
-    return a.high != b.high ? a.high < b.high : a.owner < b.owner;
-  });
+  const auto first = sides.begin();
+  for (std::size_t v = 0; v < ends.size(); ++v) {
+    std::sort(first + static_cast<std::ptrdiff_t>(begins[v]),
+              first + static_cast<std::ptrdiff_t>(ends[v]), [](const Side& a, const Side& b) {
+                return a.high != b.high ? a.high < b.high : a.owner < b.owner;
+              });
+  }
   return sides;
 }
 

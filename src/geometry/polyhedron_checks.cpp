@@ -96,7 +96,7 @@ double slack(const PolyhedronData& data) {
   const std::int32_t end = polygon.ring_begin + polygon.ring_count;
   double worst = 0.0;
   std::int32_t worst_vertex = 0;
-  Edge worst_side{};
+  std::int32_t worst_position = polygon.ring_begin;
   for (std::int32_t i = polygon.ring_begin; i < end; ++i) {
     for (std::int32_t k = polygon.ring_begin; k < end; ++k) {
       const std::int32_t vertex = vertexAfter(data, polygon, k);
@@ -105,9 +105,10 @@ double slack(const PolyhedronData& data) {
       if (beyond <= worst) continue;
       worst = beyond;
       worst_vertex = vertex;
-      worst_side = side;
+      worst_position = i;
     }
   }
+  const Edge& worst_side = data.edges[at(data.ring_edge[at(worst_position)])];
   refuse(fmt::format(
       "face {} is not a convex polygon: {} lies {} m beyond its side between vertices {} and {}, "
       "at most {} m is rounding",
