@@ -23,7 +23,7 @@ int run(int argc, char** argv) {
       "pose-a", options::value(&request.pose_a)->multitoken(), "pose of A in the world, identity")(
       "pose-b", options::value(&request.pose_b)->multitoken(), "pose of B in the world, identity")(
       "hull", options::bool_switch(&request.hull),
-      "take the convex hull of a mesh that is not convex")(
+      "take the convex hull of a mesh that is not convex, or open")(
       "json", options::bool_switch(&request.json), "one JSON object");
   options::options_description all;
   all.add(visible).add_options()("mesh", options::value(&meshes));
