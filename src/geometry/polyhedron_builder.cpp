@@ -309,11 +309,6 @@ void addFans(PolyhedronData& data, const std::vector<std::int32_t>& ranks) {
   if (data.fan.size() != 2 * data.edges.size()) refuse("the surface touches itself in a vertex");
 }
 
-void widen(Inner& inner, double value) {
-  inner.least = std::min(inner.least, value);
-  inner.most = std::max(inner.most, value);
-}
-
 /// A point inside each face of many edges, and a direction inside the cone of each vertex of many:
 /// against the normals of its faces.
 void addInner(PolyhedronData& data) {
@@ -324,10 +319,10 @@ void addInner(PolyhedronData& data) {
       const Edge& edge = data.edges[at(data.ring_edge[at(i)])];
       sum += data.vertices[at(edge.vertex[0])].p + data.vertices[at(edge.vertex[1])].p;
     }
-    Inner inner{sum / (2.0 * face.ring_count), std::numeric_limits<double>::infinity(), 0.0};
+    Inner inner{sum / (2.0 * face.ring_count), std::numeric_limits<double>::infinity()};
     for (std::int32_t i = face.ring_begin; i < face.ring_begin + face.ring_count; ++i) {
       const PolyhedronData::RingPlane& side = data.ring[at(i)];
-      widen(inner, dot(side.inward, inner.point) - side.offset);
+      inner.least = std::min(inner.least, dot(side.inward, inner.point) - side.offset);
     }
     face.middle = static_cast<std::int32_t>(data.inner.size());
     data.inner.push_back(inner);
@@ -339,9 +334,9 @@ void addInner(PolyhedronData& data) {
       const std::int32_t half = data.fan_edge[at(i)];
       sum -= data.faces[at(data.edges[at(half / 2)].face[half % 2])].normal;
     }
-    Inner inner{sum / norm(sum), std::numeric_limits<double>::infinity(), 0.0};
+    Inner inner{sum / norm(sum), std::numeric_limits<double>::infinity()};
     for (std::int32_t i = vertex.fan_begin; i < vertex.fan_begin + vertex.fan_count; ++i) {
-      widen(inner, dot(data.fan[at(i)].direction, inner.point));
+      inner.least = std::min(inner.least, dot(data.fan[at(i)].direction, inner.point));
     }
     vertex.apex = static_cast<std::int32_t>(data.inner.size());
     data.inner.push_back(inner);

@@ -60,8 +60,8 @@ struct PolyhedronData {
   /// The inside of a face or a vertex of many edges.
   struct Inner {
     Vector3 point;  // of a face: m, its middle; of a vertex: unit, at acute angles with its spokes
-    double least;   // m, distance of the middle from a side; cosine of the angle with a spoke
-    double most;
+    double least;   // m, distance of the middle from the nearest side; of a vertex: the cosine of
+                    // its largest angle with a spoke
   };
 
   std::vector<Vertex> vertices;

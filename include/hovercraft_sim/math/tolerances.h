@@ -55,9 +55,8 @@ constexpr double kSliver = 0.03;
 /// height of a vertex over three others.
 constexpr double kMeshDentSlack = 4.0 * kMeshCoordinate;
 
-/// The same for the deepest place. Six printed decimals move each coordinate of a turned cube of
-/// 1 m by up to 5e-7 m, so a vertex and the surface over it part by up to 1.7e-6 m, twice the
-/// greatest coordinate in micrometres.
+/// The same for the deepest place: a cube of 1 m (greatest coordinate 0.87 m) that is turned and
+/// printed with six decimals has dents of up to 1.7e-6 m, as each coordinate moves by up to 5e-7 m.
 constexpr double kMeshDentDepth = 3.0 * kMeshDentSlack;
 
 /// Sine of the angle (-) by which a direction may leave a Voronoi region and still count as on its
