@@ -52,6 +52,9 @@ class PolygonWalk {
   Outcome edgeEdge();
   bool leaveVertex(int side, const Vector2& u, double distance);
   double slopeAt(int side, const Vector2& u) const;
+  void take(int x, Feature here, Feature there, const Vector2& from, const Vector2& unit,
+            double distance);
+  void takeVertexEdge(int x, int i, int k);
   Vector2 toWorld(int side, const Vector2& p) const {
     return rotated(pose_[side], p) + pose_[side].p_AB;
   }
@@ -216,34 +219,45 @@ double PolygonWalk::slopeAt(int side, const Vector2& u) const {
                   -dot(local, body.edge(body.previous(v)).direction));
 }
 
-/// Every vertex with every edge: where rounding lets the walk go round in a circle.
+/// Takes the pair whose points are `from` on side x and the one `distance` along `unit` on the
+/// other, if it is the closest so far.
+void PolygonWalk::take(int x, Feature here, Feature there, const Vector2& from, const Vector2& unit,
+                       double distance) {
+  if (distance >= result_.distance) return;
+  const Vector2 to = from + distance * unit;
+  feature_[x] = here;
+  feature_[1 - x] = there;
+  result_.distance = distance;
+  result_.p_WCa = x == 0 ? from : to;
+  result_.p_WCb = x == 0 ? to : from;
+  result_.nhat_AB_W = x == 0 ? unit : -1.0 * unit;
+}
+
+/// Vertex i of side x and edge k of the other, where it is over that.
+void PolygonWalk::takeVertexEdge(int x, int i, int k) {
+  const int y = 1 - x;
+  const ConvexPolygon::Edge& e = body_[y]->edge(k);
+  const Vector2 v = toWorld(x, body_[x]->vertex(i));
+  const Vector2 w = rotatedBack(pose_[y], v - pose_[y].p_AB) - e.p;
+  const double t = dot(w, e.direction);
+  const double height = dot(outward(e), w);
+  if (t <= 0.0 || t >= e.length || height <= 0.0) return;
+  take(x, {FeatureKind::kVertex, i}, {FeatureKind::kEdge, k}, v,
+       rotated(pose_[y], -1.0 * outward(e)), height);
+}
+
+/// Every pair of disjoint polygons: where rounding lets the walk go round in a circle.
 void PolygonWalk::closestOfAllPairs() {
   result_.distance = std::numeric_limits<double>::infinity();
-  for (int x = 0; x < 2; ++x) {
-    const int y = 1 - x;
-    for (int i = 0; i < body_[x]->vertexCount(); ++i) {
-      const Vector2 v = toWorld(x, body_[x]->vertex(i));
-      const Vector2 local = rotatedBack(pose_[y], v - pose_[y].p_AB);
-      for (int k = 0; k < body_[y]->vertexCount(); ++k) {
-        const ConvexPolygon::Edge& e = body_[y]->edge(k);
-        const Vector2 w = local - e.p;
-        const double t = dot(w, e.direction);
-        const bool inside = t > 0.0 && t < e.length;
-        const double along = std::min(std::max(t, 0.0), e.length);
-        const Vector2 away = w - along * e.direction;
-        const double distance = inside ? std::abs(dot(outward(e), w)) : length(away);
-        if (distance >= result_.distance) continue;
-        const Vector2 to_edge =
-            rotated(pose_[y], inside ? -1.0 * outward(e) : (-1.0 / distance) * away);
-        const Vector2 foot = v + distance * to_edge;
-        feature_[x] = {FeatureKind::kVertex, i};
-        feature_[y] = {inside ? FeatureKind::kEdge : FeatureKind::kVertex,
-                       t >= e.length ? body_[y]->next(k) : k};
-        result_.distance = distance;
-        result_.p_WCa = x == 0 ? v : foot;
-        result_.p_WCb = x == 0 ? foot : v;
-        result_.nhat_AB_W = x == 0 ? to_edge : -1.0 * to_edge;
-      }
+  for (int i = 0; i < body_[0]->vertexCount(); ++i) {
+    for (int k = 0; k < body_[1]->vertexCount(); ++k) {
+      const Vector2 a = toWorld(0, body_[0]->vertex(i));
+      const Vector2 u = toWorld(1, body_[1]->vertex(k)) - a;
+      const double distance = length(u);
+      take(0, {FeatureKind::kVertex, i}, {FeatureKind::kVertex, k}, a, (1.0 / distance) * u,
+           distance);
+      takeVertexEdge(0, i, k);
+      takeVertexEdge(1, k, i);
     }
   }
   result_.status = Proximity::kSeparated;
