@@ -54,21 +54,28 @@ TEST(ClosestFeatures, AgreeWithBruteForceOverAllPairsOfFeatures) {
   }
 }
 
+/// The points of a grid of `cells` on the faces of the unit cube.
+std::vector<Vector3> gridOnCube(int cells) {
+  std::vector<Vector3> points;
+  const int side = cells + 1;
+  const auto is_outer = [cells](int i) { return i == 0 || i == cells; };
+  for (int i = 0; i < side * side * side; ++i) {
+    const int x = i % side;
+    const int y = i / side % side;
+    const int z = i / (side * side);
+    if (is_outer(x) || is_outer(y) || is_outer(z)) points.emplace_back(Vector3(x, y, z) / cells);
+  }
+  return points;
+}
+
 /// A box in a skew frame, given by a grid of points on its faces, as single precision keeps them
 /// where the grid has inner points: slivers along its edges.
 ConvexPolyhedron turnedBox(const Vector3& size, int cells) {
   const Matrix3 R = rotationMatrix(normalized(Quaternion{0.9, {0.1, -0.3, 0.2}}));
-  std::vector<Vector3> points;
-  const auto outer = [cells](int i) { return i == 0 || i == cells; };
-  for (int x = 0; x <= cells; ++x) {
-    for (int y = 0; y <= cells; ++y) {
-      for (int z = 0; z <= cells; ++z) {
-        if (!outer(x) && !outer(y) && !outer(z)) continue;
-        Vector3 p = times(R, size.cwiseProduct(Vector3(x, y, z) / cells));
-        if (cells > 1) p = p.cast<float>().cast<double>();
-        points.push_back(p);
-      }
-    }
+  std::vector<Vector3> points = gridOnCube(cells);
+  for (Vector3& p : points) {
+    p = times(R, size.cwiseProduct(p));
+    if (cells > 1) p = p.cast<float>().cast<double>();
   }
   return convexHull(points, "turned box");
 }

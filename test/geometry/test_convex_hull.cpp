@@ -14,35 +14,48 @@
 namespace hovercraft {
 namespace {
 
+/// Numbers the corners of the squares that the faces of a cube are cut into.
+class CubeGrid {
+ public:
+  explicit CubeGrid(int n) : n_(n) {}
+
+  /// The vertex at the place i, j of the face across an axis.
+  int corner(std::size_t axis, bool top, int i, int j) {
+    std::array<int, 3> cell{};
+    cell[axis] = top ? n_ : 0;
+    cell[(axis + 1) % 3] = top ? i : j;  // the other way round seen from outside
+    cell[(axis + 2) % 3] = top ? j : i;
+    const auto [entry, is_new] = indices_.try_emplace(cell, static_cast<int>(vertices_.size()));
+    if (is_new) {
+      vertices_.emplace_back(Vector3(cell[0], cell[1], cell[2]) / n_ - Vector3(0.5, 0.5, 0.5));
+    }
+    return entry->second;
+  }
+  const std::vector<Vector3>& vertices() const { return vertices_; }
+
+ private:
+  int n_;
+  std::map<std::array<int, 3>, int> indices_;
+  std::vector<Vector3> vertices_;
+};
+
 /// The unit cube around the origin, each face of n x n squares of two triangles.
 TriangleMesh tessellatedCube(int n) {
   TriangleMesh mesh;
-  std::map<std::array<int, 3>, int> indices;
-  const auto index_of = [&](const std::array<int, 3>& cell) {
-    const auto [entry, is_new] = indices.try_emplace(cell, static_cast<int>(mesh.vertices.size()));
-    if (is_new)
-      mesh.vertices.push_back(Vector3(cell[0], cell[1], cell[2]) / n - Vector3(0.5, 0.5, 0.5));
-    return entry->second;
-  };
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const bool top : {false, true}) {
-      const auto corner = [&](int i, int j) {
-        std::array<int, 3> cell{};
-        cell[axis] = top ? n : 0;
-        cell[(axis + 1) % 3] = top ? i : j;  // the other way round seen from outside
-        cell[(axis + 2) % 3] = top ? j : i;
-        return index_of(cell);
-      };
-      for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-          const int a = corner(i, j);
-          const int c = corner(i + 1, j + 1);
-          mesh.triangles.push_back({a, corner(i + 1, j), c});
-          mesh.triangles.push_back({a, c, corner(i, j + 1)});
-        }
-      }
-    }
+  CubeGrid grid(n);
+  for (int square = 0; square < 6 * n * n; ++square) {
+    const auto axis = static_cast<std::size_t>(square / (2 * n * n));
+    const bool top = square / (n * n) % 2 == 1;
+    const int i = square / n % n;
+    const int j = square % n;
+    const int a = grid.corner(axis, top, i, j);
+    const int b = grid.corner(axis, top, i + 1, j);
+    const int c = grid.corner(axis, top, i + 1, j + 1);
+    const int d = grid.corner(axis, top, i, j + 1);
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
   }
+  mesh.vertices = grid.vertices();
   return mesh;
 }
 

@@ -136,8 +136,8 @@ TEST(ConvexPolyhedron, TakesTurnedNeedlesAndSheets) {
                 "")
           << "e " << e << ", sample " << sample;
       for (const Vector3& size : {Vector3(1, e, e), Vector3(1, 1, e)}) {
-        std::vector<Vector3> box;
-        for (const Vector3& p : kCubeVertices) box.emplace_back(p.cwiseProduct(size));
+        std::vector<Vector3> box = kCubeVertices;
+        for (Vector3& p : box) p = p.cwiseProduct(size);
         EXPECT_EQ(refusal(turned(box, random), kCubeRings), "")
             << "size " << size.transpose() << ", sample " << sample;
       }
