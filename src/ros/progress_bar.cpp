@@ -19,8 +19,7 @@ ProgressBar::~ProgressBar() {
   if (drawn_) terminal_ << '\r' << std::string(kWidth + 7, ' ') << '\r' << std::flush;
 }
 
-void ProgressBar::show(std::int64_t done) {
-  const auto now = std::chrono::steady_clock::now();
+void ProgressBar::show(std::int64_t done, Clock::time_point now) {
   if (drawn_ && now - last_ < kInterval) return;
   drawn_ = true;
   last_ = now;

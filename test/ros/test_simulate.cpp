@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -185,11 +186,13 @@ TEST(ProgressBar, FillsAsItGoesAndIsWiped) {
   std::ostringstream terminal;
   {
     ProgressBar bar(terminal, 200);
-    bar.show(100);
-    bar.show(101);  // too soon after the first to be drawn
+    const ProgressBar::Clock::time_point begin;
+    bar.show(100, begin);
+    bar.show(101, begin + std::chrono::milliseconds(99));  // too soon to be drawn
+    bar.show(200, begin + std::chrono::milliseconds(100));
   }
-  EXPECT_EQ(terminal.str(), "\r[" + std::string(20, '=') + std::string(20, ' ') + "]  50%\r" +
-                                std::string(47, ' ') + "\r");
+  EXPECT_EQ(terminal.str(), "\r[" + std::string(20, '=') + std::string(20, ' ') + "]  50%\r[" +
+                                std::string(40, '=') + "] 100%\r" + std::string(47, ' ') + "\r");
 }
 
 TEST_F(Simulate, EveryErrorOfARequestNamesWhatIsWrong) {

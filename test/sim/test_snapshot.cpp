@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -6,6 +5,7 @@
 
 #include "hovercraft_sim/sim/snapshot.h"
 
+#include "../support/files.h"
 #include "../support/scenario_text.h"
 
 namespace hovercraft {
@@ -62,10 +62,10 @@ TEST(Snapshot, ARunThatGoesOnFromItGivesTheBitsOfTheRunThatNeverStopped) {
 TEST(Snapshot, ComesBackFromAFile) {
   const Scenario scenario = parsed(validScenario());
   const Simulation simulation = underWay(scenario);
-  const std::string path = ::testing::TempDir() + "hovercraft_snapshot.yaml";
+  const testing::TestFolder folder;
+  const std::string path = folder.file("snapshot.yaml");
   saveSnapshot(simulation, path);
   EXPECT_EQ(readSnapshotText(path), toSnapshot(simulation));
-  EXPECT_EQ(std::remove(path.c_str()), 0);
 }
 
 TEST(Snapshot, FilesThatCannotBeUsedAreNamed) {

@@ -9,6 +9,8 @@ namespace hovercraft_ros {
 /// A line on a terminal that shows how much is done; it is drawn at most ten times a second.
 class ProgressBar {
  public:
+  using Clock = std::chrono::steady_clock;
+
   /// @param whole what counts as all done, > 0.
   ProgressBar(std::ostream& terminal, std::int64_t whole);
   /// Wipes the line.
@@ -16,13 +18,13 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  void show(std::int64_t done);
+  void show(std::int64_t done, Clock::time_point now = Clock::now());
 
  private:
   std::ostream& terminal_;
   std::int64_t whole_;
   bool drawn_ = false;
-  std::chrono::steady_clock::time_point last_;
+  Clock::time_point last_;
 };
 
 }  // namespace hovercraft_ros
