@@ -133,6 +133,16 @@ std::vector<Vector3> compact(const std::vector<Vector3>& points, Rings& rings) {
   return vertices;
 }
 
+/// The order in which qhull finds facets, and where their rings begin, hangs on the last bits of
+/// its sums, which fused multiply-add changes on some processors: each ring begins with its lowest
+/// vertex, and they follow each other in the order of their vertices.
+void putInOrder(Rings& rings) {
+  for (std::vector<std::int32_t>& ring : rings) {
+    std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  }
+  std::sort(rings.begin(), rings.end());
+}
+
 /// The body of the facets that qhull finds.
 ConvexPolyhedron hullBody(const std::vector<Vector3>& points, double coplanar,
                           const std::string& name) {
@@ -147,6 +157,7 @@ ConvexPolyhedron hullBody(const std::vector<Vector3>& points, double coplanar,
   }
   dropFlatVertices(points.size(), rings);
   const std::vector<Vector3> vertices = compact(points, rings);
+  putInOrder(rings);
   try {
     return {vertices, rings};
   } catch (const std::invalid_argument& error) {

@@ -59,6 +59,19 @@ TriangleMesh tessellatedCube(int n) {
   return mesh;
 }
 
+// Whatever order qhull finds them in: it is another one on processors that fuse multiply and add.
+TEST(ConvexHull, FacesAreInTheOrderOfTheirVertices) {
+  RandomBodies random(17);
+  const ConvexPolyhedron hull = random.ellipsoidHull(60, {1.0, 0.7, 0.4});
+  std::vector<std::int32_t> before;
+  for (int f = 0; f < hull.faceCount(); ++f) {
+    const std::vector<std::int32_t> ring = hull.verticesOf({FeatureKind::kFace, f});
+    EXPECT_EQ(ring.front(), *std::min_element(ring.begin(), ring.end()));
+    EXPECT_LT(before, ring);
+    before = ring;
+  }
+}
+
 // A grid of 5^3 points of a turned cube: eight corners, six square faces.
 TEST(ConvexHull, MergesCoplanarFacetsAndLeavesOutPointsOnThem) {
   RandomBodies random(11);
