@@ -6,8 +6,12 @@
 
 #include "hovercraft_sim/geometry/convex_polygon.h"
 
+#include "../support/files.h"
+
 namespace hovercraft {
 namespace {
+
+using testing::messageOf;
 
 TEST(ConvexPolygon, RefusesWhatIsNotConvexAndCounterClockwise) {
   EXPECT_THROW(ConvexPolygon({{0, 0}, {1, 0}}), std::invalid_argument);
@@ -27,16 +31,6 @@ TEST(ConvexPolygon, HullLeavesOutInnerPointsAndPointsOnEdges) {
   EXPECT_THROW(convexHull(std::vector<Vector2>{{0, 0}, {1, 1}, {2, 2}}), std::invalid_argument);
 }
 
-template <class Function>
-std::string messageOf(const Function& function) {
-  try {
-    function();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 // Points on the sides leave them by rounding, to either side.
 TEST(ConvexPolygon, HullTakesTurnedGrids) {
   for (int sample = 0; sample < 2000; ++sample) {
@@ -46,16 +40,13 @@ TEST(ConvexPolygon, HullTakesTurnedGrids) {
     for (int x = 0; x < 5; ++x) {
       for (int y = 0; y < 5; ++y) points.push_back({c * x - s * y, s * x + c * y});
     }
-    EXPECT_EQ(messageOf([&] {
-                const ConvexPolygon hull = convexHull(points);
-                for (const Vector2& p : points) {
-                  for (int i = 0; i < hull.vertexCount(); ++i) {
-                    EXPECT_GE(cross(hull.edge(i).direction, p - hull.edge(i).p), -1e-14);
-                  }
-                }
-              }),
-              "")
-        << "sample " << sample;
+    ConvexPolygon hull({{0, 0}, {1, 0}, {0, 1}});
+    ASSERT_NO_THROW(hull = convexHull(points)) << "sample " << sample;
+    for (const Vector2& p : points) {
+      for (int i = 0; i < hull.vertexCount(); ++i) {
+        EXPECT_GE(cross(hull.edge(i).direction, p - hull.edge(i).p), -1e-14) << "sample " << sample;
+      }
+    }
   }
 }
 
