@@ -20,10 +20,11 @@ from rosgraph_msgs.msg import Clock
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from ros_waiting import DEADLINE, service, snapshot_now, wait_until
+from ros_waiting import DEADLINE, service, snapshot_now, wait_for_connections, wait_until
 
 STEP_NS = 1000000
 PUBLISH_EVERY = 10  # ticks from state to state
+CLOCK_NS = 10000000  # from /clock to /clock
 RESETS = 50
 STAMPED = {'/clock': (Clock, lambda m: [m.clock]),
            '/tf': (TFMessage, lambda m: [transform.header.stamp for transform in m.transforms]),
@@ -44,7 +45,7 @@ def listening(topic, kind):
     messages = []
     subscriber = rospy.Subscriber(topic, kind, messages.append, queue_size=1000)
     try:
-        wait_until(lambda: subscriber.get_num_connections() > 0, topic)
+        wait_for_connections(subscriber)
         yield messages
     finally:
         subscriber.unregister()
@@ -54,7 +55,7 @@ def listening(topic, kind):
 def thrust_publisher():
     publisher = rospy.Publisher('/hovercraft/thrust', ThrustCommand, queue_size=10)
     try:
-        wait_until(lambda: publisher.get_num_connections() > 0, 'the thrust topic')
+        wait_for_connections(publisher)
         yield publisher
     finally:
         publisher.unregister()
@@ -113,6 +114,23 @@ class ControlTest(unittest.TestCase):
         self.assertEqual(self.first_tick, 0)
         for topic, stamps in self.stamps.items():
             self.assertGreater(min(stamps), rospy.Time(0), topic)
+
+    def test_the_clock_has_its_period_and_shows_where_a_paused_run_stands(self):
+        with listening('/clock', Clock) as clock:
+            def steps():
+                # Not of the first two: one is of before, another may have come before the run was resumed.
+                times = [message.clock.to_nsec() for message in list(clock)][2:]
+                return [later - earlier for earlier, later in zip(times, times[1:])]
+
+            self.assertTrue(self.resume().success)
+            # Where the node falls behind, the next message comes later than that.
+            wait_until(lambda: steps().count(CLOCK_NS) >= 10, 'ten periods of the clock')
+            self.assertGreaterEqual(min(steps()), CLOCK_NS)
+            self.assertTrue(self.pause().success)
+            state = self.state_after(PUBLISH_EVERY - self.step(0).tick % PUBLISH_EVERY)
+            wait_until(lambda: clock[-1].clock == state.header.stamp, 'the clock of a run that is paused')
+            self.assertGreater(min(steps()), 0)
+            self.assertEqual({step % STEP_NS for step in steps()}, {0})
 
     def test_the_same_steps_give_the_same_hash_in_every_episode(self):
         self.push()
@@ -306,7 +324,7 @@ class ControlTest(unittest.TestCase):
             '/tf', TFMessage, lambda m: stamps.append(m.transforms[0].header.stamp.to_nsec()), queue_size=10000)
         buffer = tf2_ros.Buffer()
         listener = tf2_ros.TransformListener(buffer)
-        wait_until(lambda: min(subscriber.get_num_connections(), states.get_num_connections()) > 0, 'the topics')
+        wait_for_connections(subscriber, states)
         self.assertTrue(self.resume().success)
         wait_until(lambda: len(stamps) > 5, 'the first transforms')
         wait_until(lambda: buffer.can_transform('world', 'hovercraft/base_link', rospy.Time(0)), 'the tf buffer')

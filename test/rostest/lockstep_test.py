@@ -25,7 +25,7 @@ from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from std_srvs.srv import Trigger
 
-from ros_waiting import DEADLINE, service, snapshot_now, wait_until
+from ros_waiting import DEADLINE, service, snapshot_now, wait_for_connections, wait_until
 
 PERIODS = 40
 PERIOD_TICKS = 50
@@ -47,8 +47,7 @@ class Controller:
         self.publisher = rospy.Publisher('/hovercraft/thrust', ThrustCommand, queue_size=10, tcp_nodelay=True)
         self.subscribers = [rospy.Subscriber('/hovercraft/state', State, self.on_state, queue_size=1000),
                             rospy.Subscriber('/hovercraft/odom', Odometry, self.on_odom, queue_size=1000)]
-        wait_until(lambda: all(wire.get_num_connections() > 0 for wire in self.subscribers + [self.publisher]),
-                   'the topics')
+        wait_for_connections(self.publisher, *self.subscribers)
 
     def on_state(self, state):
         self.hashes[state.episode, state.tick] = state.hash

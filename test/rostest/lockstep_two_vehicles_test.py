@@ -11,7 +11,7 @@ from hovercraft_sim.msg import State, Telemetry, ThrustCommand
 from hovercraft_sim.srv import Reset
 from std_srvs.srv import Trigger
 
-from ros_waiting import service, snapshot_now, wait_until
+from ros_waiting import service, snapshot_now, wait_for_connections, wait_until
 
 CRAFT = ('alpha', 'beta')
 PERIODS = 20
@@ -27,8 +27,7 @@ class Controller:
         self.last_tick = 0  # that it answers
         self.publisher = rospy.Publisher(f'/{name}/thrust', ThrustCommand, queue_size=10, tcp_nodelay=True)
         self.subscriber = rospy.Subscriber(f'/{name}/state', State, self.on_state, queue_size=1000)
-        wait_until(lambda: min(self.publisher.get_num_connections(), self.subscriber.get_num_connections()) > 0,
-                   'the topics')
+        wait_for_connections(self.publisher, self.subscriber)
 
     def on_state(self, state):
         self.states[state.episode, state.tick] = state

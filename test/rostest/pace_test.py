@@ -8,17 +8,19 @@ import unittest
 import dynamic_reconfigure.client
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from hovercraft_sim.msg import AppliedCommand, State, Telemetry
 from hovercraft_sim.srv import Step
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from ros_waiting import DEADLINE, service, wait_until
+from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
 
 STEP = 0.001       # s
 FAR = 10 * DEADLINE / STEP  # ticks that would take ten times as long as anyone waits, at a pace of 1
 COMMANDS = 60
 PAUSES = 5
+REPORTS = 3  # whole ones, one a second
 # s, no multiple of the period between two states: nothing is waited for, it is when the next request comes that counts.
 ODD_WAIT = 0.0137
 
@@ -26,6 +28,7 @@ ODD_WAIT = 0.0137
 class PaceTest(unittest.TestCase):
     def setUp(self):
         self.given_up, self.reports, self.ticks, self.wanted = 0.0, 0, [], None
+        self.heard = []  # (when it came, report)
         self.telemetry = rospy.Subscriber('/hovercraft_sim/telemetry', Telemetry, self.on_telemetry)
         self.pause, self.resume = service('pause', Trigger), service('resume', Trigger)
         self.step = service('step', Step)
@@ -36,6 +39,7 @@ class PaceTest(unittest.TestCase):
         self.telemetry.unregister()
 
     def on_telemetry(self, report):
+        self.heard.append((time.monotonic(), report))
         self.given_up += report.time_given_up
         self.ticks.append(report.tick)
         self.wanted = report.wanted_real_time_factor
@@ -65,7 +69,7 @@ class PaceTest(unittest.TestCase):
         commands = rospy.Subscriber('/hovercraft/commands', AppliedCommand,
                                     lambda command: applied.update({command.rear: command.tick}))
         thrust = rospy.Publisher('/hovercraft/thrust/rear', Float64, queue_size=10, tcp_nodelay=True)
-        wait_until(lambda: min(commands.get_num_connections(), thrust.get_num_connections()) > 0, 'the topics')
+        wait_for_connections(commands, thrust)
         due = self.start()
         pairs = []
         for number in range(COMMANDS):
@@ -89,7 +93,7 @@ class PaceTest(unittest.TestCase):
     def test_the_node_is_never_ahead_of_its_pace(self):
         reached = []
         states = rospy.Subscriber('/hovercraft/state', State, lambda state: reached.append(state.tick))
-        wait_until(lambda: states.get_num_connections() > 0, 'the states')
+        wait_for_connections(states)
         try:
             for factor in (0.5, 1.0, 4.0):
                 self.assertTrue(self.pause().success)
@@ -112,6 +116,60 @@ class PaceTest(unittest.TestCase):
     def set_pace(self, factor):
         """What the node answers."""
         return PACE.update_configuration({'real_time_factor': factor})['real_time_factor']
+
+    def first_report_at(self, factor):
+        """Where it stands in heard; the pace was another before."""
+        begin = len(self.heard)
+        self.assertEqual(self.set_pace(factor), factor)
+
+        def found():
+            return [i for i in range(begin, len(self.heard))
+                    if self.heard[i][1].wanted_real_time_factor == factor]
+
+        wait_until(found, f'a report at {factor}')
+        return found()[0]
+
+    def test_telemetry_and_diagnostics_say_how_the_pace_is_kept(self):
+        diagnostics = []
+        subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, diagnostics.append)
+        wait_for_connections(subscriber)
+        self.assertTrue(self.resume().success)
+        try:
+            begin = time.monotonic()
+            first = self.first_report_at(4.0)
+            wait_until(lambda: len(self.heard) > first + REPORTS, 'reports')
+            end = time.monotonic()
+            last = self.first_report_at(2.0)
+            self.expect_factors_of_the_time_between(first, last, begin, end)
+            self.expect_in_diagnostics(self.heard[last][1], diagnostics)
+        finally:
+            self.set_pace(1.0)
+            subscriber.unregister()
+
+    def expect_factors_of_the_time_between(self, first, last, begin, end):
+        """The first report was made after begin, the last one after end; each before it came."""
+        wall = 0.0  # s that the reports between them took, by their own account
+        for (_, before), (_, report) in zip(self.heard[first:last], self.heard[first + 1:last + 1]):
+            wall += (report.tick - before.tick) * STEP / report.real_time_factor
+            self.assertGreater(report.step_time_p50, 0.0)
+            self.assertLessEqual(report.step_time_p50, report.step_time_p99)
+            self.assertGreater(report.lateness_p50, 0.0)
+            self.assertLessEqual(report.lateness_p50, report.lateness_p99)
+        self.assertGreaterEqual(wall, end - self.heard[first][0])
+        self.assertLessEqual(wall, self.heard[last][0] - begin)
+
+    def expect_in_diagnostics(self, report, diagnostics):
+        def figures():
+            entries = [{entry.key: entry.value for entry in status.values}
+                       for array in list(diagnostics) for status in array.status]
+            return [entry for entry in entries if entry.get('Tick') == str(report.tick)]
+
+        wait_until(figures, f'diagnostics of tick {report.tick}')
+        for key, value in (('Real-time factor', f'{report.real_time_factor:.4f}'),
+                           ('Step time p50 (us)', f'{1e6 * report.step_time_p50:.2f}'),
+                           ('Step time p99 (us)', f'{1e6 * report.step_time_p99:.2f}'),
+                           ('Late steps', str(report.late_steps))):
+            self.assertEqual(figures()[0][key], value, key)
 
     def test_a_parameter_that_came_as_text_is_the_pace_at_the_start(self):
         self.assertEqual(INITIAL_PACE, 10.0)

@@ -9,7 +9,7 @@ from hovercraft_sim.msg import State, ThrustCommand
 from hovercraft_sim.srv import Reset
 from std_srvs.srv import Trigger
 
-from ros_waiting import service, wait_until
+from ros_waiting import service, wait_for_connections, wait_until
 
 SECOND_COMMAND = rospy.Duration(2)  # s after the first, play_commands.csv
 
@@ -19,7 +19,7 @@ class PlayCommandsTest(unittest.TestCase):
         states, thrusts = [], []
         listeners = [rospy.Subscriber('/hovercraft/state', State, states.append),
                      rospy.Subscriber('/hovercraft/thrust', ThrustCommand, thrusts.append)]
-        wait_until(lambda: all(listener.get_num_connections() > 0 for listener in listeners), 'connections')
+        wait_for_connections(*listeners)
         self.assertTrue(service('resume', Trigger)().success)
         wait_until(lambda: len(thrusts) > 5, 'thrusts of the first episode')
         self.assertTrue(service('reset', Reset)().success)

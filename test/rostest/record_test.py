@@ -12,7 +12,7 @@ from hovercraft_sim.msg import State, ThrustCommand
 from std_srvs.srv import Trigger
 
 from ros_recorder import Recorder
-from ros_waiting import DEADLINE, service, wait_until
+from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
 
 TOPICS = ['/hovercraft/state', '/hovercraft/commands', '/hovercraft_sim/scenario', '/hovercraft_sim/events']
 TICKS = 1000
@@ -32,7 +32,7 @@ class RecordTest(unittest.TestCase):
         states = []
         subscriber = rospy.Subscriber('/hovercraft/state', State, states.append, queue_size=1000)
         publisher = rospy.Publisher('/hovercraft/thrust', ThrustCommand, queue_size=10)
-        wait_until(lambda: min(subscriber.get_num_connections(), publisher.get_num_connections()) > 0, 'the topics')
+        wait_for_connections(subscriber, publisher)
         self.assertTrue(service('resume', Trigger)().success)
 
         def has_flown():

@@ -21,7 +21,7 @@ from hovercraft_sim.srv import ApplyWrench, Reset, SetState, Snapshot
 from std_srvs.srv import Trigger
 
 from ros_recorder import Recorder
-from ros_waiting import DEADLINE, service, wait_until
+from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
 
 TOPICS = ['/hovercraft/state', '/hovercraft/commands', '/hovercraft_sim/scenario', '/hovercraft_sim/events']
 WHOLE_TOPICS = TOPICS[1:]  # of the states some may be lost when the simulation flies as fast as it can
@@ -59,8 +59,7 @@ class ReplayLiveTest(unittest.TestCase):
             rospy.Subscriber('/hovercraft/commands', AppliedCommand, self.take_command, queue_size=1000)]
         self.publisher = rospy.Publisher('/hovercraft/thrust', ThrustCommand, queue_size=10)
         self.pace = dynamic_reconfigure.client.Client('/hovercraft_sim', timeout=DEADLINE)
-        wait_until(lambda: all(wire.get_num_connections() > 0 for wire in self.subscribers + [self.publisher]),
-                   'the topics')
+        wait_for_connections(self.publisher, *self.subscribers)
 
     def tearDown(self):
         service('pause', Trigger)()

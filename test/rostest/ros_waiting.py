@@ -26,6 +26,19 @@ def wait_until(condition, what):
         threading.Event().wait(0.005)
 
 
+def wait_for_connections(*wires):
+    """Until each Subscriber and Publisher has a peer, and no message can be lost any more."""
+    wait_until(lambda: all(map(is_connected, wires)), ', '.join(wire.resolved_name for wire in wires))
+
+
+def is_connected(wire):
+    """rospy counts what a subscriber is about to call as well; the type of its messages comes with the answer."""
+    if isinstance(wire, rospy.Publisher):
+        return wire.get_num_connections() > 0
+    calls = list(wire.impl.connections)
+    return bool(calls) and all(call.type is not None for call in calls)
+
+
 def snapshot_now():
     """What the node would go on from, whether it waits or not."""
     with tempfile.TemporaryDirectory() as folder:
