@@ -24,7 +24,7 @@ from ros_waiting import DEADLINE, service, snapshot_now, wait_for_connections, w
 
 STEP_NS = 1000000
 PUBLISH_EVERY = 10  # ticks from state to state
-CLOCK_NS = 10000000  # from /clock to /clock
+CLOCK_NS = 20000000  # from /clock to /clock, control.test
 RESETS = 50
 STAMPED = {'/clock': (Clock, lambda m: [m.clock]),
            '/tf': (TFMessage, lambda m: [transform.header.stamp for transform in m.transforms]),
