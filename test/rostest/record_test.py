@@ -11,7 +11,7 @@ import rostest
 from hovercraft_sim.msg import State, ThrustCommand
 from std_srvs.srv import Trigger
 
-from ros_recorder import Recorder
+from ros_recorder import Recorder, seldom
 from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
 
 TOPICS = ['/hovercraft/state', '/hovercraft/commands', '/hovercraft_sim/scenario', '/hovercraft_sim/events']
@@ -35,8 +35,10 @@ class RecordTest(unittest.TestCase):
         wait_for_connections(subscriber, publisher)
         self.assertTrue(service('resume', Trigger)().success)
 
+        command = seldom(lambda: publisher.publish(ThrustCommand(rear=2.0, left=0.3)))
+
         def has_flown():
-            publisher.publish(ThrustCommand(rear=2.0, left=0.3))
+            command()
             return states and states[-1].tick >= TICKS and states[-1].commands > 0
         wait_until(has_flown, f'{TICKS} ticks')
         subscriber.unregister()

@@ -20,7 +20,7 @@ from hovercraft_sim.msg import AppliedCommand, RunEvent, State, ThrustCommand
 from hovercraft_sim.srv import ApplyWrench, Reset, SetState, Snapshot
 from std_srvs.srv import Trigger
 
-from ros_recorder import Recorder
+from ros_recorder import Recorder, seldom
 from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
 
 TOPICS = ['/hovercraft/state', '/hovercraft/commands', '/hovercraft_sim/scenario', '/hovercraft_sim/events']
@@ -83,9 +83,11 @@ class ReplayLiveTest(unittest.TestCase):
 
     def command_until(self, condition, what):
         """Commands come on wall time."""
+        command = seldom(lambda: self.publisher.publish(ThrustCommand(
+            rear=self.draw.uniform(0, 4), left=self.draw.uniform(0, 1), right=self.draw.uniform(0, 1))))
+
         def is_fulfilled():
-            self.publisher.publish(ThrustCommand(rear=self.draw.uniform(0, 4), left=self.draw.uniform(0, 1),
-                                                 right=self.draw.uniform(0, 1)))
+            command()
             return condition()
         wait_until(is_fulfilled, what)
 

@@ -3,6 +3,7 @@
 import collections
 import os
 import signal
+import time
 import xmlrpc.client
 
 import rosgraph
@@ -14,6 +15,9 @@ SIMULATION = '/hovercraft_sim'
 # What the recorder must have received after the last message of interest before it is stopped: its ten threads have taken
 # that one from the queue long before.
 LATER_MESSAGES = 50
+# s of wall time from command to command: rosbag keeps 100 messages of a topic for its threads, and forgets the oldest where a
+# busy machine lets these wait for longer.
+COMMAND_PERIOD = 0.05
 
 Wire = collections.namedtuple('Wire', 'peer is_outgoing topic messages')
 
@@ -34,6 +38,18 @@ def wires_of(node):
     counts.update({wire[0]: wire[2] for _, wires, *_ in subscribed for wire in wires})
     return [Wire(peer, direction == 'o', topic, counts.get(number, 0))
             for number, peer, direction, _, topic, *_ in connections]
+
+
+def seldom(act):
+    """What can be called as often as one likes: it acts once per COMMAND_PERIOD."""
+    due = time.monotonic()
+
+    def act_if_due():
+        nonlocal due
+        if time.monotonic() >= due:
+            act()
+            due = time.monotonic() + COMMAND_PERIOD
+    return act_if_due
 
 
 class Recorder:
