@@ -12,6 +12,7 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
+#include <ros/single_subscriber_publisher.h>
 
 namespace {
 
@@ -41,14 +42,19 @@ int main(int argc, char** argv) {
   const ros::NodeHandle own("~");
   const double heading = own.param("heading", 0.0);  // rad
   const double speed = own.param("speed", 1.0);      // m/s
-  // Latched: the simulation waits for the first answer even if it came before its connection.
+  // The simulation waits for the first answer even if it came before its connection. A latched
+  // topic would not do: roscpp loses what it publishes at the very moment of the connection.
+  hovercraft_sim::ThrustCommand last;
+  const ros::SubscriberStatusCallback repeat = [&](const ros::SingleSubscriberPublisher& to) {
+    if (!last.header.stamp.isZero()) to.publish(last);
+  };
   const ros::Publisher publisher =
-      node.advertise<hovercraft_sim::ThrustCommand>("hovercraft/thrust", 10, true);
+      node.advertise<hovercraft_sim::ThrustCommand>("hovercraft/thrust", 10, repeat);
   const boost::function<void(const nav_msgs::Odometry&)> answer =
       [&](const nav_msgs::Odometry& odometry) {
-        hovercraft_sim::ThrustCommand command = thrusts(odometry, heading, speed);
-        command.header.stamp = odometry.header.stamp;
-        publisher.publish(command);
+        last = thrusts(odometry, heading, speed);
+        last.header.stamp = odometry.header.stamp;
+        publisher.publish(last);
       };
   const ros::Subscriber subscriber = node.subscribe<nav_msgs::Odometry>(
       "hovercraft/odom", 100, answer, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
