@@ -7,13 +7,13 @@
 #include <Eigen/Eigenvalues>
 
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr const char* kAxisNames = "xyz";
 /// Bound on a component of a unit vector (-): just below 1/√3, so that one is always beyond it.
 /// Common directions, at multiples of 15° in a coordinate plane or along a diagonal, have none so

@@ -3,16 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
 
 using Data = PolyhedronData;
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Searches the faces of the Minkowski difference. Axes of W, origin in the origin of A.
 class OverlapSearch {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
 namespace {
@@ -42,10 +43,6 @@ struct Corners {
     --count;
   }
 };
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// The face of a body that looks most along a direction of W: uphill on the faces of the support
 /// vertex would do for a smooth answer; the faces around the supporting feature hold it.

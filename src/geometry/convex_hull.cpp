@@ -11,14 +11,11 @@
 
 #include "hovercraft_sim/geometry/polyhedron_builder.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// One run of qhull: its state, and what it has to say, freed at the end.
 class Qhull {

@@ -38,7 +38,8 @@ namespace {
 
 constexpr std::chrono::seconds kDeadline(30);  // of wall time: much more than a start takes
 constexpr double kPoll = 0.01;                 // s, how often a deadline is looked at
-constexpr std::uint32_t kQueue = 10000;  // states; a simulation at full speed must not lose one
+constexpr std::uint32_t kFlightQueue =
+    10000;  // states; a simulation at full speed must not lose one
 
 /// Handles callbacks until the condition holds. @param patience wall time without a callback.
 void waitUntil(const std::string& what, const std::function<bool()>& condition) {
@@ -108,7 +109,8 @@ void Flight::connect() {
     const boost::function<void(const hovercraft_sim::State&)> on_state =
         [this, i](const hovercraft_sim::State& state) { onState(i, state); };
     subscribers_.push_back(own.subscribe<hovercraft_sim::State>(
-        kStateTopic, kQueue, on_state, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+        kStateTopic, kFlightQueue, on_state, ros::VoidConstPtr(),
+        ros::TransportHints().tcpNoDelay()));
   }
   waitUntil("the states of every craft", [this] {
     return std::all_of(
@@ -154,7 +156,7 @@ void Flight::play(const std::string& commands, double settle) {
   played_ = std::move(played);
   for (const hovercraft::VehicleScenario& craft : scenario_.vehicles) {
     ros::NodeHandle own(handle_, craft.name);
-    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kQueue));
+    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kFlightQueue));
   }
   waitUntil("somebody who takes the thrusts of every craft", [this] {
     return std::all_of(publishers_.begin(), publishers_.end(), [](const ros::Publisher& publisher) {

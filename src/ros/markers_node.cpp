@@ -14,7 +14,7 @@ namespace hovercraft_ros {
 namespace {
 
 constexpr double kRefreshPeriod = 0.05;  // s of wall time
-constexpr std::uint32_t kQueue = 10;
+constexpr std::uint32_t kDisplayQueue = 10;
 
 void append(visualization_msgs::MarkerArray& array,
             const std::vector<visualization_msgs::Marker>& markers) {
@@ -26,7 +26,7 @@ void append(visualization_msgs::MarkerArray& array,
 MarkersNode::MarkersNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle) {
   ros::NodeHandle own(private_handle);
-  publisher_ = own.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
+  publisher_ = own.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue);
   scenario_subscriber_ = handle_.subscribe("scenario", 1, &MarkersNode::onScenario, this);
   timer_ = own.createWallTimer(ros::WallDuration(kRefreshPeriod),
                                [this](const ros::WallTimerEvent&) { publish(); });
@@ -63,9 +63,9 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
   const boost::function<void(const hovercraft_sim::EngineStatus&)> on_engines =
       [craft](const hovercraft_sim::EngineStatus& engines) { craft->engines = engines; };
   craft->subscribers = {
-      own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kQueue, on_pose),
-      own.subscribe<hovercraft_sim::State>(kStateTopic, kQueue, on_state),
-      own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kQueue, on_engines)};
+      own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kDisplayQueue, on_pose),
+      own.subscribe<hovercraft_sim::State>(kStateTopic, kDisplayQueue, on_state),
+      own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kDisplayQueue, on_engines)};
 }
 
 /// What has the same marker at all times: obstacles, and the hulls of loose bodies, which tf moves.

@@ -20,11 +20,11 @@ constexpr double kRateSlack = 1e-9;
 constexpr double kDefaultPublishRate = 100.0;  // Hz
 
 // Beyond it a count of steps is no exact double; such a period is a slip.
-constexpr double kMostSteps = 1e15;
+constexpr double kMostStepsOfPeriod = 1e15;
 
 /// How many steps a period is; none if these are not a whole number.
 std::optional<hovercraft::Tick> wholeSteps(double steps) {
-  if (!(steps <= kMostSteps)) return std::nullopt;
+  if (!(steps <= kMostStepsOfPeriod)) return std::nullopt;
   const hovercraft::Tick whole = std::llround(steps);
   if (whole < 1 || std::abs(steps - static_cast<double>(whole)) > kRateSlack * steps) {
     return std::nullopt;

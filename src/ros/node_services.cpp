@@ -20,7 +20,7 @@ namespace {
 
 /// Bound on one ~step: an hour at 1 kHz. Whoever wants more asks again, and callbacks are served
 /// between.
-constexpr std::uint32_t kMostSteps = 3600000;
+constexpr std::uint32_t kMostStepsAsked = 3600000;
 
 template <class Service>
 ros::ServiceServer serve(
@@ -53,9 +53,9 @@ void step(HovercraftNode& node, const hovercraft_sim::Step::Request& request) {
   if (node.config().lockstep) {
     throw std::invalid_argument("in lockstep it is the commands that move the simulation: ~resume");
   }
-  if (request.steps > kMostSteps) {
+  if (request.steps > kMostStepsAsked) {
     throw std::invalid_argument("steps = " + std::to_string(request.steps) + ": must be at most " +
-                                std::to_string(kMostSteps));
+                                std::to_string(kMostStepsAsked));
   }
   node.stepPaused(request.steps);
 }

@@ -85,7 +85,7 @@ std::string jsonOf(const BodyReport& body) {
       jsonOfRows(principal.axes.transpose()));
 }
 
-std::string columns(const Vector3& v) {
+std::string alignedColumns(const Vector3& v) {
   return fmt::format("{:>16.9g}{:>16.9g}{:>16.9g}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
@@ -95,7 +95,7 @@ std::string lines(const std::array<std::string, 3>& names, const Matrix3& rows,
   std::string text;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3 row = rows.row(static_cast<Eigen::Index>(i));
-    text += fmt::format("  {:<18}{}{}\n", names[i], columns(row), remark);
+    text += fmt::format("  {:<18}{}{}\n", names[i], alignedColumns(row), remark);
   }
   return text;
 }
@@ -107,9 +107,10 @@ std::string textOf(const BodyReport& body) {
   text += body.volume
               ? fmt::format("  {:<18}{:>16.9g} m^3\n", "volume", *body.volume)
               : fmt::format("  {:<18}{:>16}, as mass and inertia are given\n", "volume", "unknown");
-  text += fmt::format("  {:<18}{} m\n", "center_of_mass", columns(body.properties.p_HB));
+  text += fmt::format("  {:<18}{} m\n", "center_of_mass", alignedColumns(body.properties.p_HB));
   text += lines({"inertia", "", ""}, body.properties.I_BBo_B, " kg m^2");
-  text += fmt::format("  {:<18}{} kg m^2\n", "principal_moments", columns(principal.moments));
+  text +=
+      fmt::format("  {:<18}{} kg m^2\n", "principal_moments", alignedColumns(principal.moments));
   text += lines({"principal_axes", "", ""}, principal.axes.transpose(), "");
   return text;
 }

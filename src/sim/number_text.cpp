@@ -18,10 +18,6 @@ constexpr int kMostDigits = 16;       // of kMaxNanoseconds
 constexpr long kMostShift =
     1000000;  // an exponent beyond it is of 0, or leaves nothing of a number
 
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// A decimal number taken apart: ± 0.d1 d2 d3 ... · 10^point
 struct Decimal {
   bool is_negative = false;
@@ -220,6 +216,10 @@ std::string secondsText(std::int64_t time_ns) {
   fmt::memory_buffer buffer;
   appendSeconds(buffer, time_ns);
   return fmt::to_string(buffer);
+}
+
+std::string vectorText(const Vector3& v) {
+  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
 }
 
 }  // namespace hovercraft

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/world_parser.h"
@@ -16,13 +17,9 @@ std::string text(double number) {
   return fmt::format("{:.17g}", number);
 }
 
-std::string text(const Vector3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
-}
-
 struct ShapeWriter {
   std::string operator()(const BoxShape& box) const {
-    return "box: {size: " + text(box.size) + "}";
+    return "box: {size: " + vectorText(box.size) + "}";
   }
   std::string operator()(const SphereShape& sphere) const {
     return "sphere: {radius: " + text(sphere.radius) + "}";
@@ -48,14 +45,14 @@ std::string massText(const VehicleScenario& vehicle) {
     return fmt::format(
         "    mass: {:.17g}\n    center_of_mass: {}\n    inertia: {{ixx: {:.17g}, iyy: {:.17g}, "
         "izz: {:.17g}, ixy: {:.17g}, ixz: {:.17g}, iyz: {:.17g}}}\n",
-        vehicle.mass_properties.mass, text(vehicle.mass_properties.p_HB), I(0, 0), I(1, 1), I(2, 2),
-        I(0, 1), I(0, 2), I(1, 2));
+        vehicle.mass_properties.mass, vectorText(vehicle.mass_properties.p_HB), I(0, 0), I(1, 1),
+        I(2, 2), I(0, 1), I(0, 2), I(1, 2));
   }
   std::string parts = "    parts:\n";
   for (const PartScenario& part : vehicle.parts) {
     parts += fmt::format("      - {{{}, mass: {:.17g}, position: {}, rpy: {}}}\n",
-                         std::visit(ShapeWriter(), part.shape), part.mass, text(part.p_HP),
-                         text(part.rpy));
+                         std::visit(ShapeWriter(), part.shape), part.mass, vectorText(part.p_HP),
+                         vectorText(part.rpy));
   }
   return parts;
 }
@@ -67,7 +64,7 @@ std::string engineText(const VehicleScenario& vehicle) {
     yaml += fmt::format(
         "      {}: {{position: {}, direction: {}, min_thrust: {:.17g}, max_thrust: {:.17g}, "
         "time_constant: {:.17g}, timeout: {:.17g}}}\n",
-        kEngineNames[i], text(engine.p_HE), text(engine.direction), engine.min_thrust,
+        kEngineNames[i], vectorText(engine.p_HE), vectorText(engine.direction), engine.min_thrust,
         engine.max_thrust, engine.time_constant, toSeconds(engine.timeout_ns));
   }
   return yaml;
@@ -81,12 +78,12 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
   yaml += surfaceYaml(vehicle, scenario);
   yaml += fmt::format(
       "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}}}\n",
-      text(vehicle.drag.linear), text(vehicle.drag.quadratic), text(vehicle.drag.angular_linear),
-      text(vehicle.drag.angular_quadratic));
+      vectorText(vehicle.drag.linear), vectorText(vehicle.drag.quadratic),
+      vectorText(vehicle.drag.angular_linear), vectorText(vehicle.drag.angular_quadratic));
   yaml +=
       fmt::format("    initial: {{position: {}, rpy: {}, velocity: {}, angular_velocity: {}}}\n",
-                  text(vehicle.initial_p_WB), text(vehicle.initial_rpy), text(vehicle.initial_v_WB),
-                  text(vehicle.initial_w_WB));
+                  vectorText(vehicle.initial_p_WB), vectorText(vehicle.initial_rpy),
+                  vectorText(vehicle.initial_v_WB), vectorText(vehicle.initial_w_WB));
   return yaml;
 }
 
@@ -98,8 +95,8 @@ std::string toYaml(const Scenario& scenario) {
       "seed: {}\nvehicles:\n",
       scenario.stepSize(), kIntegratorNames[static_cast<std::size_t>(scenario.integrator)],
       kOrientationNames[static_cast<std::size_t>(scenario.orientation)],
-      kModelNames[static_cast<std::size_t>(scenario.model)], text(scenario.gravity),
-      text(scenario.wind), scenario.seed);
+      kModelNames[static_cast<std::size_t>(scenario.model)], vectorText(scenario.gravity),
+      vectorText(scenario.wind), scenario.seed);
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     yaml += vehicleText(vehicle, scenario, true);
   }

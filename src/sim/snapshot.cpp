@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 namespace hovercraft {
@@ -18,17 +19,13 @@ namespace {
 
 const std::vector<std::string> kFrameNames = {"world", "body"};
 
-std::string text(const Vector3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
-}
-
 /// The orientation as named vectors: a quaternion as scalar and vector, a matrix as its columns.
 std::string orientationText(const Quaternion& q) {
-  return fmt::format("q_s: {:.17g}, q_v: {}", q.s, text(q.v));
+  return fmt::format("q_s: {:.17g}, q_v: {}", q.s, vectorText(q.v));
 }
 std::string orientationText(const Matrix3& R) {
-  return fmt::format("x_axis: {}, y_axis: {}, z_axis: {}", text(R.col(0)), text(R.col(1)),
-                     text(R.col(2)));
+  return fmt::format("x_axis: {}, y_axis: {}, z_axis: {}", vectorText(R.col(0)),
+                     vectorText(R.col(1)), vectorText(R.col(2)));
 }
 
 Quaternion parseQuaternion(const ConfigReader& reader) {
@@ -52,8 +49,8 @@ std::string bodyText(const BodyState& state) {
   return std::visit(
       [](const auto& body) {
         return fmt::format("{{position: {}, {}, momentum: {}, angular_momentum: {}}}\n",
-                           text(body.p_WB), orientationText(body.orientation),
-                           text(body.momentum_W), text(body.angular_momentum_W));
+                           vectorText(body.p_WB), orientationText(body.orientation),
+                           vectorText(body.momentum_W), vectorText(body.angular_momentum_W));
       },
       state);
 }
@@ -72,13 +69,14 @@ std::string wrenchText(const Scenario& scenario, const ExternalWrench& external)
   return fmt::format("  - {{vehicle: {}, frame: {}, force: {}, torque: {}, end_tick: {}}}\n",
                      scenario.vehicles[external.vehicle].name,
                      kFrameNames[static_cast<std::size_t>(external.frame)],
-                     text(external.wrench.force), text(external.wrench.torque), external.end_tick);
+                     vectorText(external.wrench.force), vectorText(external.wrench.torque),
+                     external.end_tick);
 }
 
 std::string commandText(const Scenario& scenario, const Command& command) {
   return fmt::format("  - {{tick: {}, vehicle: {}, engines: {}, thrusts: {}}}\n", command.tick,
                      scenario.vehicles[command.vehicle].name, static_cast<int>(command.engines),
-                     text(command.thrusts));
+                     vectorText(command.thrusts));
 }
 
 /// A contact by the indices of its bodies and features: these are of the same scenario.
@@ -92,8 +90,8 @@ std::string contactText(const ContactMemory& contact) {
   if (contact.count > 0) yaml += ", points: [";
   for (int i = 0; i < contact.count; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    yaml += fmt::format("{}{{p: {}, force: {}}}", i > 0 ? ", " : "", text(contact.p_AC[k]),
-                        text(contact.force_B_W[k]));
+    yaml += fmt::format("{}{{p: {}, force: {}}}", i > 0 ? ", " : "", vectorText(contact.p_AC[k]),
+                        vectorText(contact.force_B_W[k]));
   }
   return yaml + (contact.count > 0 ? "]}\n" : "}\n");
 }

@@ -7,6 +7,7 @@
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -187,10 +188,6 @@ void checkStart(const ConfigReader& reader, const Scenario& scenario) {
                                 "the way",
                                 squeezed->a, squeezed->b));
   }
-}
-
-std::string vectorText(const Vector3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
 }
 
 struct HullWriter {

@@ -19,20 +19,20 @@
 #include "hovercraft_sim/ros/simulate.h"
 
 #include "../support/files.h"
+#include "../support/numbers.h"
 #include "../support/scenarios.h"
 
 namespace hovercraft_ros {
 namespace {
 
 using hovercraft::testing::contentOf;
+using hovercraft::testing::kNan;
 using hovercraft::testing::messageOf;
 using hovercraft::testing::oneCraftYaml;
 using hovercraft::testing::TestFolder;
 using hovercraft_sim::AppliedCommand;
 using hovercraft_sim::RunEvent;
 using hovercraft_sim::State;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A bag of a run, whole or with something in it that cannot be.
 class RecordedInput : public ::testing::Test {

@@ -19,21 +19,22 @@
 #include "hovercraft_sim/sim/compare.h"
 
 #include "../support/files.h"
+#include "../support/numbers.h"
 
 namespace hovercraft_ros {
 namespace {
 
 using hovercraft::Vector3;
+using hovercraft::testing::kRounding;
 using hovercraft::testing::messageOf;
 using hovercraft::testing::TestFolder;
 
-constexpr double kRounding = 1e-15;
 constexpr std::int64_t kEpochNs = 1700000000123456789;
-constexpr std::int64_t kStepNs = 2000000;
+constexpr std::int64_t kSampleStepNs = 2000000;
 
 ros::Time stampOfTick(std::int64_t tick) {
   ros::Time stamp;
-  stamp.fromNSec(static_cast<std::uint64_t>(kEpochNs + tick * kStepNs));
+  stamp.fromNSec(static_cast<std::uint64_t>(kEpochNs + tick * kSampleStepNs));
   return stamp;
 }
 
@@ -118,8 +119,8 @@ TEST_F(TrajectoryFile, PrefersStateAndCountsItsTimeFromTickZero) {
   EXPECT_EQ(read[0].source, path_ + ": /craft/state, centre of mass");
   EXPECT_FALSE(read[0].holds_time_zero);
   ASSERT_EQ(read[0].samples.size(), 3U);
-  EXPECT_EQ(read[0].samples[0].time_ns, 5 * kStepNs);
-  EXPECT_EQ(read[0].samples[2].time_ns, 20 * kStepNs);
+  EXPECT_EQ(read[0].samples[0].time_ns, 5 * kSampleStepNs);
+  EXPECT_EQ(read[0].samples[2].time_ns, 20 * kSampleStepNs);
   EXPECT_EQ(read[0].samples[0].p_WB, Vector3(1.0, 2.0, 3.0));
   EXPECT_EQ(read[0].samples[0].v_WB, Vector3(4.0, 0.0, 0.0));
   EXPECT_EQ(read[0].samples[0].w_WB, Vector3(0.0, 0.0, 5.0));
@@ -133,7 +134,7 @@ TEST_F(TrajectoryFile, TurnsTheTwistOfOdometryIntoWorldAxes) {
   const auto read = readTrajectories(path_);
   ASSERT_EQ(read.size(), 1U);
   EXPECT_EQ(read[0].source, path_ + ": /craft/odom, base_link");
-  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + 5 * kStepNs);
+  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + 5 * kSampleStepNs);
   EXPECT_LT((read[0].samples[0].v_WB - Vector3(0.0, 4.0, 0.0)).norm(), 4.0 * kRounding);
   EXPECT_LT((read[0].samples[0].w_WB - Vector3(0.0, 5.0, 0.0)).norm(), 5.0 * kRounding);
 }
@@ -175,8 +176,8 @@ TEST_F(TrajectoryFile, WhatHasNoStateCountsFromTickZeroOfThoseThatHaveOne) {
   ASSERT_EQ(read.size(), 3U);
   for (const auto& trajectory : read) {
     ASSERT_EQ(trajectory.samples.size(), 3U);
-    EXPECT_EQ(trajectory.samples[0].time_ns, 5 * kStepNs) << trajectory.vehicle;
-    EXPECT_EQ(trajectory.samples[2].time_ns, 20 * kStepNs) << trajectory.vehicle;
+    EXPECT_EQ(trajectory.samples[0].time_ns, 5 * kSampleStepNs) << trajectory.vehicle;
+    EXPECT_EQ(trajectory.samples[2].time_ns, 20 * kSampleStepNs) << trajectory.vehicle;
   }
   // Two runs with ticks of their own have no time in common but that of their stamps.
   write([&fill](rosbag::Bag& bag) {
@@ -189,7 +190,7 @@ TEST_F(TrajectoryFile, WhatHasNoStateCountsFromTickZeroOfThoseThatHaveOne) {
   });
   const auto of_two = readTrajectories(path_);
   ASSERT_EQ(of_two[1].vehicle, "crate");
-  EXPECT_EQ(of_two[1].samples[0].time_ns, kEpochNs + 5 * kStepNs);
+  EXPECT_EQ(of_two[1].samples[0].time_ns, kEpochNs + 5 * kSampleStepNs);
 }
 
 /// A bag of `simulate` as if it had been recorded live: every stamp is later by one epoch.
@@ -239,7 +240,8 @@ TEST_F(TrajectoryFile, EachNamespaceIsATrajectory) {
   const auto read = readTrajectories(path_);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].vehicle, "alpha");
-  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + kStepNs);  // one state does not tell the step
+  EXPECT_EQ(read[0].samples[0].time_ns,
+            kEpochNs + kSampleStepNs);  // one state does not tell the step
   EXPECT_EQ(read[1].vehicle, "fleet/beta");
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/sim/compare.h"
 
 #include "../support/files.h"
@@ -13,7 +14,6 @@ namespace {
 
 using testing::messageOf;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-13;
 constexpr std::int64_t kStepNs = 10000000;
 

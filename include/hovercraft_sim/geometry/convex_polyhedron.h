@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hovercraft_sim/geometry/feature.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -122,8 +123,6 @@ class ConvexPolyhedron {
   std::size_t memory() const;
 
  private:
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
   PolyhedronData data_;
 };
 

@@ -4,7 +4,14 @@
 #include <fmt/format.h>
 #include <string>
 
+#include "hovercraft_sim/math/vector.h"
+
 namespace hovercraft {
+
+/// One of 0 to 9, whatever the locale.
+constexpr bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 enum class NumberSyntax { kNumber, kNotFinite, kNoNumber };
 
@@ -33,5 +40,8 @@ void appendNumber(fmt::memory_buffer& buffer, double number);
 /// Appends whole nanoseconds as seconds, exactly and without trailing zeros: 1500000000 is 1.5.
 void appendSeconds(fmt::memory_buffer& buffer, std::int64_t time_ns);
 std::string secondsText(std::int64_t time_ns);
+
+/// A vector as a list of YAML with 17 digits: the same bits when it is read again.
+std::string vectorText(const Vector3& v);
 
 }  // namespace hovercraft
