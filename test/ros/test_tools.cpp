@@ -34,7 +34,7 @@ class Tools : public ::testing::Test {
          at = arguments.find("{}")) {
       arguments.replace(at, 2, folder_.file(""));
     }
-    const bool is_script = arguments.rfind("scripts/", 0) == 0;
+    const bool is_script = arguments.rfind("python3 scripts/", 0) == 0;
     const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     const std::string command = is_script ? arguments : folder.string() + "/" + arguments;
     std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
@@ -130,13 +130,13 @@ TEST_F(Tools, ReplayAnswersWhatIfAndCompareSaysWhereTheyPart) {
 
 TEST_F(Tools, PlotRunDrawsTheOnlyCraftAmongLooseBodies) {
   ASSERT_EQ(run("simulate config/crates.yaml -d 0.5 -o {}crates.bag").status, 0);
-  const Outcome drawn = run("scripts/plot_run.py {}crates.bag -o {}run.png");
+  const Outcome drawn = run("python3 scripts/plot_run.py {}crates.bag -o {}run.png");
   EXPECT_EQ(drawn.status, 0) << drawn.output;
   EXPECT_NE(drawn.output.find("vehicle           hovercraft\n"), std::string::npos) << drawn.output;
   EXPECT_TRUE(std::filesystem::exists(folder_.file("run.png")));
 
   ASSERT_EQ(run("simulate config/curling.yaml -d 0.1 -o {}two.bag").status, 0);
-  const Outcome two = run("scripts/plot_run.py {}two.bag -o {}two.png");
+  const Outcome two = run("python3 scripts/plot_run.py {}two.bag -o {}two.png");
   EXPECT_EQ(two.status, 1);
   EXPECT_NE(two.output.find("two.bag: vehicles with pose and twist: stone, target; choose one with "
                             "--vehicle\n"),
