@@ -8,6 +8,7 @@ folder of its own, and the ROS master has a free port. `sudo` is a stand-in that
 """
 
 import argparse
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -118,16 +119,17 @@ class Process:
 class Terminal:
     """Runs the commands of a document in order. What they export and where they go to lasts until the next section, or block."""
 
-    def __init__(self, folder, checkout, build):
+    def __init__(self, folder, checkout, home, build):
         self.folder, self.checkout = folder, checkout
         self.state = folder / 'environment'
         self.running = {}  # command: Process, what stays until its section ends
         self.count = 0
-        for name in ('bin', 'home', 'tmp', 'log'):
-            (folder / name).mkdir()
+        for name in ('bin', 'tmp', 'log'):
+            (folder / name).mkdir(parents=True)
         self.environment = {
-            'PATH': f'{folder}/bin:/usr/bin:/bin:/usr/sbin:/sbin', 'HOME': f'{folder}/home', 'TMPDIR': f'{folder}/tmp',
+            'PATH': f'{folder}/bin:/usr/bin:/bin:/usr/sbin:/sbin', 'HOME': str(home), 'TMPDIR': f'{folder}/tmp',
             'CXX': f'{folder}/bin/compiler', 'ROS_MASTER_URI': f'http://localhost:{free_port()}', 'ROS_HOSTNAME': 'localhost',
+            'ROS_LANG_DISABLE': 'geneus:genlisp:gennodejs',  # messages for languages that nothing here uses
             'LANG': 'C.UTF-8', 'PYTHONUNBUFFERED': '1', 'PYTHONDONTWRITEBYTECODE': '1'}
         cache = (build / 'CMakeCache.txt').read_text()
         compiler = re.search(r'^CMAKE_CXX_COMPILER:\w+=(.*)$', cache, re.MULTILINE).group(1)
@@ -166,9 +168,11 @@ class Terminal:
     def run(self, command):
         """Runs a command that ends by itself; returns its output."""
         process = self.start(command, keeps_state=True)
-        status = process.wait(DEADLINE)
-        if status is None:
+        try:
+            status = process.wait(DEADLINE)
+        finally:
             process.end()
+        if status is None:
             raise Failure(f'it has not ended after {DEADLINE:.0f} s: it needs a rule with until\n{process.output()}')
         if status != 0:
             raise Failure(f'exit status {status}\n{process.output()}')
@@ -269,7 +273,7 @@ def report(item, began, verdict, detail=''):
 
 
 def run_all(terminal, items):
-    """Runs them; returns how many failed."""
+    """Runs them in order; returns how many failed."""
     failures, section, block = 0, None, 0
     for item in items:
         began = time.monotonic()
@@ -285,7 +289,23 @@ def run_all(terminal, items):
         except Failure as failure:
             failures += 1
             report(item, began, 'FAILED', f'\n{failure}')
+    try:
+        terminal.end_section()
+    except Failure as failure:
+        failures += 1
+        print(f'FAILED at the end of {section}\n{failure}', flush=True)
     return failures
+
+
+def run_in_lanes(terminals, items):
+    """What the first document prints up to what it builds; then the rest of it beside the other documents."""
+    first = printed_rules.DOCUMENTS[0]
+    built = [n for n, item in enumerate(items) if (item.document, item.section) == (first, printed_rules.LAST_IN_ORDER)]
+    begin = built[-1] + 1 if built else len(items)
+    failures = run_all(terminals[0], items[:begin])
+    lanes = [[item for item in items[begin:] if (item.document == first) == is_first] for is_first in (True, False)]
+    with concurrent.futures.ThreadPoolExecutor() as pool:
+        return failures + sum(pool.map(run_all, terminals, lanes))
 
 
 def unused_rules(items):
@@ -303,6 +323,7 @@ def main():
     arguments = parser.parse_args()
     build = arguments.build.resolve()
 
+    printed.check_reader()
     tools = [path.name for path in (build / 'devel/lib/hovercraft_sim').iterdir()]
     items = [item for document in printed_rules.DOCUMENTS for item in printed.read(document, printed_rules.TEXTS, tools)
              if item.section not in printed_rules.UNREAD_SECTIONS]
@@ -312,15 +333,16 @@ def main():
     if arguments.section:
         items = [item for item in items if item.section in ('Two commands', arguments.section)]
     folder = pathlib.Path(tempfile.mkdtemp(prefix='hovercraft_printed.'))
-    terminal = None
+    terminals = []
     try:
+        (folder / 'home').mkdir()
         copy_checkout(folder / 'hovercraft_sim')
-        terminal = Terminal(folder, folder / 'hovercraft_sim', build)
-        failures = run_all(terminal, items)
-        terminal.end_section()
+        terminals = [Terminal(folder / lane, folder / 'hovercraft_sim', folder / 'home', build) for lane in ('first', 'second')]
+        failures = run_in_lanes(terminals, items)
     finally:
-        for process in terminal.running.values() if terminal else ():
-            process.end()
+        for terminal in terminals:
+            for process in terminal.running.values():
+                process.end()
         shutil.rmtree(folder)
     if failures:
         sys.exit(f'{failures} of what the documents print failed')

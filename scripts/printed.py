@@ -10,9 +10,10 @@ import shutil
 # begins that it stands in; the commands of one are typed into one terminal.
 Printed = collections.namedtuple('Printed', 'document line section kind text name block')
 
-SHELL_WORDS = ('.', 'source', 'export', 'cd', 'sudo', 'unset')
+SHELL_WORDS = ('$', '.', 'source', 'export', 'cd', 'sudo', 'unset')
 FENCE = re.compile(r'^```\s*(\w*)\s*$')
 FILE_NAME = re.compile(r'`([^`\s]+)`:$')
+HERE_DOCUMENT = re.compile(r'<<-?\s*[\'"]?(\w+)')
 SPAN = re.compile(r'(?<!`)`([^`]+)`(?!`)')
 
 
@@ -27,7 +28,7 @@ def is_command(text, tools):
 
 
 def commands_of(lines):
-    """(offset, command) of each command of a block: what a quote or a backslash goes on with belongs to it."""
+    """(offset, command) of each command of a block: what a quote, a backslash or << goes on with belongs to it."""
     command, begin = '', 0
     for offset, line in enumerate(lines):
         if not command and (not line.strip() or line.lstrip().startswith('#')):
@@ -39,7 +40,8 @@ def commands_of(lines):
         except ValueError:
             command += '\n'
             continue
-        if command.endswith('\\'):
+        document = HERE_DOCUMENT.search(command)
+        if command.endswith('\\') or document and line.strip() != document.group(1):
             command += '\n'
             continue
         yield begin, re.sub(r'\s+#.*$', '', command)
@@ -108,3 +110,47 @@ def last_of(lines, at):
 
 def read(document, languages_of_texts, tools):
     return Reader(document, languages_of_texts, tools).read(pathlib.Path(document).read_text())
+
+
+SAMPLE = """
+Say `simulate
+a.yaml`, or simulate: `simulate`, `time,rear`.
+
+    simulate indented.yaml
+
+```bash
+# a comment
+simulate '{x: 1,
+  y: 2}' # another
+cat > f << 'END'
+text
+END
+```
+
+`a/b.xml`:
+
+```xml
+<a/>
+```
+
+```xml
+<nameless/>
+```
+
+```text
+simulate hidden.yaml
+identical: 3 ticks
+```
+"""
+IN_SAMPLE = [
+    ('command', 'simulate a.yaml', ''), ('fault', 'an indented command, which nothing runs: simulate indented.yaml', ''),
+    ('command', "simulate '{x: 1,\n  y: 2}'", ''), ('command', "cat > f << 'END'\ntext\nEND", ''), ('file', '<a/>\n', 'a/b.xml'),
+    ('fault', 'a block of xml without the name of its file in the line before: `PATH`:', ''),
+    ('fault', 'a command in a block of text, which nothing runs: simulate hidden.yaml', '')]
+
+
+def check_reader():
+    """Nothing that is printed may be overlooked: what is found in a sample is what is in it."""
+    found = [(item.kind, item.text, item.name) for item in Reader('sample', ('text',), ['simulate']).read(SAMPLE)]
+    if found != IN_SAMPLE:
+        raise AssertionError(f'printed.py finds {found}')

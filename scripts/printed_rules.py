@@ -23,6 +23,8 @@ BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
 TEXTS = ('', 'text', 'mermaid')
 
+# Up to this section of the first document everything runs in order. What it built is there then, and the other documents run beside the rest.
+LAST_IN_ORDER = 'Build it yourself'
 # Sections in which commands are named, not printed to be run.
 UNREAD_SECTIONS = ('Traps of ROS 1 on Debian',)
 
@@ -45,7 +47,7 @@ RULES = (
     Rule(r'scripts/test.*', skip='it is what runs this'),
     Rule(r'roslaunch hovercraft_sim sim\.launch', until='/hovercraft_sim/scenario', stays=True),
     Rule(r'rostopic pub -r 10 /hovercraft/thrust/rear .*', until=MOVED),
-    Rule(r'rostopic echo /hovercraft/pose/pose/position', until=re.compile('x: 0.[1-9]'), beside=(SIMULATION, FORWARDS)),
+    Rule(r'rostopic echo /hovercraft/pose/pose/position', until=re.compile(r'x: ([1-9]|0\.[1-9])'), beside=(SIMULATION, FORWARDS)),
     Rule(r'rostopic pub -r 10 /hovercraft/thrust hovercraft_sim/ThrustCommand .*', beside=(SIMULATION,),
          until='rostopic echo -n 1 --filter "m.right.commanded == 0.4" /hovercraft/engines'),
     Rule(r'\. (devel|~/hovercraft)/setup\.bash', then=ROSRUN),
