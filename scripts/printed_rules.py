@@ -44,7 +44,7 @@ HAS_THRUSTS = 'rosbag info flight.bag | grep /hovercraft/thrust/rear'
 RULES = (
     # README.md
     Rule(r'scripts/demo', then='. build_release/devel/setup.bash; ' + ROSRUN, says='top speed'),
-    Rule(r'scripts/test.*', skip='it is what runs this'),
+    Rule(r'scripts/test.*|python3 scripts/check_printed\.py .*', skip='it is what runs this'),
     Rule(r'roslaunch hovercraft_sim sim\.launch', until='/hovercraft_sim/scenario', stays=True),
     Rule(r'rostopic pub -r 10 /hovercraft/thrust/rear .*', until=MOVED),
     Rule(r'rostopic echo /hovercraft/pose/pose/position', until=re.compile(r'x: ([1-9]|0\.[1-9])'), beside=(SIMULATION, FORWARDS)),
@@ -67,7 +67,8 @@ RULES = (
     Rule(r'rosrun dynamic_reconfigure dynparam .*', beside=(SIMULATION,)),
     Rule(r'rosservice call .*', beside=(SIMULATION,), says='success: True'),
     Rule(r'roslaunch hovercraft_sim sim\.launch lockstep:=true', beside=(), until='/hovercraft_sim/scenario', stays=True),
-    Rule(r'rosrun hovercraft_sim hold_heading(\.py)?( .*)?', until=MOVED, beside=('roslaunch hovercraft_sim sim.launch lockstep:=true',)),
+    Rule(r'rosrun hovercraft_sim hold_heading(\.py)?( .*)?', beside=('roslaunch hovercraft_sim sim.launch lockstep:=true',),
+         until='rostopic echo -n 20 /hovercraft/commands'),
     Rule(r'rosbag record .*', beside=(SIMULATION,), until='rostopic echo -n 50 /hovercraft/state'),
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
