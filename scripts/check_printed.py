@@ -343,7 +343,7 @@ def main():
         for terminal in terminals:
             for process in terminal.running.values():
                 process.end()
-        shutil.rmtree(folder)
+        shutil.rmtree(folder, ignore_errors=True)
     if failures:
         sys.exit(f'{failures} of what the documents print failed')
     print(f'All of the {len(items)} commands and files that the documents print work.')
