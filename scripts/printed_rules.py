@@ -50,6 +50,8 @@ RULES = (
     Rule(r'rostopic echo /hovercraft/pose/pose/position', until=re.compile(r'x: ([1-9]|0\.[1-9])'), beside=(SIMULATION, FORWARDS)),
     Rule(r'rostopic pub -r 10 /hovercraft/thrust hovercraft_sim/ThrustCommand .*', beside=(SIMULATION,),
          until='rostopic echo -n 1 --filter "m.right.commanded == 0.4" /hovercraft/engines'),
+    Rule(r'rosrun hovercraft_sim simulate .* --output reference\.bag',
+         then='rosrun hovercraft_sim compare reference.bag examples/flight_test/reference.bag'),
     Rule(r'\. (devel|~/hovercraft)/setup\.bash', then=ROSRUN),
     Rule(r'roslaunch hovercraft_sim sim\.launch record:=true .*', beside=(), until=RECORDS, drive=FORWARDS, then=HAS_THRUSTS),
     Rule(r'roslaunch hovercraft_sim record\.launch .*', beside=(SIMULATION,), until=RECORDS, drive=FORWARDS, then=HAS_THRUSTS),
