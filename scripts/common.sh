@@ -74,7 +74,8 @@ packages_of_debian() {
       python3-rostopic rosbash rosout ;;
     # The runtime of clang's sanitizers; before, it was part of what clang depends on.
     clang) case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac ;;
-    test) echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-tf2-ros ;;
+    demo) echo python3-rostest ;;
+    test) echo librostest-dev python3-rosnode python3-rosmsg python3-tf2-ros ;;
     rviz) echo rviz ;;
   esac
 }
@@ -83,7 +84,8 @@ packages_of_noetic() {
   case "$1" in
     build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs message-generation nav-msgs rosbag rosbash \
       roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic std-msgs std-srvs tf2-msgs tf2-ros visualization-msgs ;;
-    test) printf 'ros-noetic-%s ' rostest rosnode rosmsg rosservice ;;
+    demo) echo ros-noetic-rostest ;;
+    test) printf 'ros-noetic-%s ' rosnode rosmsg rosservice ;;
     rviz) printf 'ros-noetic-%s ' rviz ;;
   esac
 }
