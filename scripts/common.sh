@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034
 # Shared by the scripts in this folder; sourced, never run. It moves to the root of the checkout, takes an
-# environment in which ROS 1 works, and offers: install_packages PURPOSE..., enter_ros, free_port, note, fail.
+# environment in which ROS 1 works, and offers: install_packages PURPOSE..., enter_ros, require_localhost, free_port, note, fail.
 #
 # Packages come from Debian's own archive (11 to 13; Ubuntu from 22.04 on carries the same in universe) or, on
 # Ubuntu 20.04, from the ROS archive (Noetic).
@@ -149,6 +149,7 @@ TEXT
 
 # Takes ROS into the environment where it lies outside /usr.
 enter_ros() {
+  require_localhost
   if [[ $(system_family) == noetic ]]; then
     set +u
     # shellcheck disable=SC1091
@@ -157,7 +158,14 @@ enter_ros() {
   fi
 }
 
-# A TCP port of this machine that nobody listens on, for a roscore of our own beside any other.
+# This machine finds itself by the name that the nodes give each other.
+require_localhost() {
+  getent ahostsv4 "$ROS_HOSTNAME" > /dev/null ||
+    fail "the name $ROS_HOSTNAME cannot be resolved, by which ROS nodes find each other: put \"127.0.0.1 $ROS_HOSTNAME\" into /etc/hosts"
+}
+
+# A TCP port of this machine that nobody listens on, for a roscore of our own beside any other. A failure ends the script, but only
+# in an assignment of its own: port=$(free_port).
 free_port() {
-  python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
+  python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
 }

@@ -16,9 +16,9 @@ namespace {
 constexpr double kRefreshPeriod = 0.05;  // s of wall time
 constexpr std::uint32_t kDisplayQueue = 10;
 
-void append(visualization_msgs::MarkerArray& array,
+void append(std::vector<visualization_msgs::Marker>& array,
             const std::vector<visualization_msgs::Marker>& markers) {
-  array.markers.insert(array.markers.end(), markers.begin(), markers.end());
+  array.insert(array.end(), markers.begin(), markers.end());
 }
 
 }  // namespace
@@ -69,12 +69,15 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
 }
 
 /// What has the same marker at all times: obstacles, and the hulls of loose bodies, which tf moves.
-void MarkersNode::makeStill(const std::string& world_frame) {
-  still_ = obstacleMarkers(scenario_, world_frame);
+void MarkersNode::makeStill(const std::string& world_frame, const std::string& prefix) {
+  still_.clear();
+  still_prefix_ = prefix;
   if (!scenario_.world) return;
   for (const hovercraft::VehicleScenario& body : scenario_.world->bodies) {
     still_.push_back(bodyMarker(body));
   }
+  addPrefix(prefix, still_);
+  append(still_, obstacleMarkers(scenario_, world_frame));
 }
 
 void MarkersNode::publish() {
@@ -82,13 +85,16 @@ void MarkersNode::publish() {
   visualization_msgs::MarkerArray array;
   for (const auto& craft : craft_) {
     if (craft->world_frame.empty()) continue;  // no pose yet: tf does not know the craft
-    if (still_.empty()) makeStill(craft->world_frame);
-    append(array, craftMarkers(craft->description));
-    append(array, thrustMarkers(craft->description, craft->engines));
+    const std::string prefix = prefixOf(craft->engines.header.frame_id, craft->description.name);
+    if (still_.empty() || still_prefix_ != prefix) makeStill(craft->world_frame, prefix);
+    std::vector<visualization_msgs::Marker> fixed = craftMarkers(craft->description);
+    append(fixed, thrustMarkers(craft->description, craft->engines));
+    addPrefix(prefix, fixed);
+    append(array.markers, fixed);
     array.markers.push_back(
         pathMarker(craft->description, craft->world_frame, craft->path.points()));
   }
-  append(array, still_);
+  append(array.markers, still_);
   if (!array.markers.empty()) publisher_.publish(array);
 }
 

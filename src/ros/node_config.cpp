@@ -7,7 +7,6 @@
 
 #include <ros/package.h>
 
-#include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -76,6 +75,18 @@ void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
   config.control_period = *steps;
 }
 
+TfFrames readFrames(const hovercraft::ConfigReader& reader) {
+  TfFrames frames;
+  if (reader.has("world_frame")) frames.world = reader.text("world_frame");
+  if (frames.world.front() == '/') reader.fail("world_frame", "must not begin with a slash (tf2)");
+  if (!reader.has("tf_prefix")) return frames;
+  frames.prefix = reader.text("tf_prefix");
+  if (frames.prefix.front() == '/' || frames.prefix.back() == '/') {
+    reader.fail("tf_prefix", "must not begin or end with a slash");
+  }
+  return frames;
+}
+
 }  // namespace
 
 const char* const kRealTimeFactorRuleText = "must be 0 (as fast as it can) or 1e-6 to 1000";
@@ -93,19 +104,16 @@ NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node
         "command=\"load\" ns=\"scenario\" file=\"...\"/> inside the <node>, as sim.launch does");
   }
   const hovercraft::ConfigReader reader(parameters, node_name);
-  reader.allowOnly({"scenario", "publish_rate", "world_frame", "real_time_factor", "paused",
-                    "clock", "clock_rate", "lockstep", "control_period", "lockstep_timeout",
-                    "diagnostic_period"});
+  reader.allowOnly({"scenario", "publish_rate", "world_frame", "tf_prefix", "real_time_factor",
+                    "paused", "clock", "clock_rate", "lockstep", "control_period",
+                    "lockstep_timeout", "diagnostic_period"});
   NodeConfig config;
   config.scenario = hovercraft::parseScenario(
       parameters["scenario"], {node_name + "/scenario", "", [](const std::string& package) {
                                  return ros::package::getPath(package);
                                }});
   config.publish_every = publishPeriod(reader, config.scenario.stepSize());
-  config.world_frame = reader.has("world_frame") ? reader.text("world_frame") : kDefaultWorldFrame;
-  if (config.world_frame.front() == '/') {
-    reader.fail("world_frame", "must not begin with a slash (tf2)");
-  }
+  config.frames = readFrames(reader);
   config.real_time_factor = reader.numberOr(config.real_time_factor, "real_time_factor",
                                             {isRealTimeFactor, kRealTimeFactorRuleText});
   config.paused = reader.flagOr(config.paused, "paused");

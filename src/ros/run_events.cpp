@@ -89,14 +89,14 @@ RunEvent setStateEvent(const hovercraft::Scenario& scenario,
 
 RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
                           const hovercraft_sim::ApplyWrench::Request& request,
-                          const std::string& world_frame, hovercraft::Tick tick) {
+                          const TfFrames& frames, hovercraft::Tick tick) {
   vehicleIndex(scenario, request.vehicle);
   requireFinite(fromMessage(request.wrench.force), "wrench.force");
   requireFinite(fromMessage(request.wrench.torque), "wrench.torque");
-  const std::string base_frame = request.vehicle + "/base_link";
+  const std::string base_frame = frames.of(request.vehicle);
   require(
-      request.frame_id == world_frame || request.frame_id == base_frame,
-      fmt::format("frame_id = {}: must be {} or {}", request.frame_id, world_frame, base_frame));
+      request.frame_id == frames.world || request.frame_id == base_frame,
+      fmt::format("frame_id = {}: must be {} or {}", request.frame_id, frames.world, base_frame));
   const std::int64_t duration_ns = request.duration.toNSec();
   require(duration_ns > 0, "duration: must be greater than 0");
   RunEvent event;

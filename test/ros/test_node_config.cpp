@@ -42,7 +42,8 @@ TEST(NodeConfig, HasADefaultForEverythingButTheScenario) {
   EXPECT_EQ(config.scenario.step_ns, 2000000);
   EXPECT_EQ(config.scenario.vehicles.at(0).name, "alpha");
   EXPECT_EQ(config.publish_every, 5);  // 100 Hz
-  EXPECT_EQ(config.world_frame, "world");
+  EXPECT_EQ(config.frames.world, "world");
+  EXPECT_EQ(config.frames.prefix, "");
   EXPECT_EQ(config.real_time_factor, 1.0);
   EXPECT_FALSE(config.paused);
   EXPECT_FALSE(config.clock);
@@ -55,11 +56,13 @@ TEST(NodeConfig, HasADefaultForEverythingButTheScenario) {
 
 TEST(NodeConfig, TakesEveryParameter) {
   const NodeConfig config = configWith(
-      "{publish_rate: 50, world_frame: map, real_time_factor: 0, paused: true, clock: true, "
+      "{publish_rate: 50, world_frame: map, tf_prefix: red/1, real_time_factor: 0, paused: true, "
+      "clock: true, "
       "clock_rate: 250, lockstep: true, control_period: 0.02, lockstep_timeout: 0.5, "
       "diagnostic_period: 0.1}");
   EXPECT_EQ(config.publish_every, 10);
-  EXPECT_EQ(config.world_frame, "map");
+  EXPECT_EQ(config.frames.world, "map");
+  EXPECT_EQ(config.frames.prefix, "red/1");
   EXPECT_EQ(config.real_time_factor, 0.0);
   EXPECT_TRUE(config.paused);
   EXPECT_TRUE(config.clock);
@@ -123,6 +126,11 @@ TEST(NodeConfig, ARealTimeFactorIsZeroOrWhatCanBeMeant) {
 TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
   EXPECT_EQ(complaintWith("{world_frame: /map}"),
             "/sim: world_frame = /map: must not begin with a slash (tf2)");
+  for (const char* prefix : {"/red", "red/", "/"}) {
+    EXPECT_EQ(complaintWith(std::string("{tf_prefix: ") + prefix + "}"),
+              std::string("/sim: tf_prefix = ") + prefix + ": must not begin or end with a slash");
+  }
+  EXPECT_EQ(complaintWith("{tf_prefix: ''}"), "/sim: tf_prefix: must be a text");
   EXPECT_EQ(complaintWith("{world_frame: ''}"), "/sim: world_frame: must be a text");
   EXPECT_EQ(complaintWith("{real_time_factor: -1}"),
             "/sim: real_time_factor = -1: must be 0 (as fast as it can) or 1e-6 to 1000");
@@ -148,7 +156,7 @@ TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
 TEST(NodeConfig, AParameterThatNobodyKnowsIsAnError) {
   EXPECT_EQ(complaintWith("{publish_rat: 50}"),
             "/sim: publish_rat = 50: unknown key; known here: scenario, publish_rate, world_frame, "
-            "real_time_factor, paused, clock, clock_rate, lockstep, control_period, "
+            "tf_prefix, real_time_factor, paused, clock, clock_rate, lockstep, control_period, "
             "lockstep_timeout, diagnostic_period");
 }
 

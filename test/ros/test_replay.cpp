@@ -52,7 +52,7 @@ class RecordedRun : public ::testing::Test {
     wrench.frame_id = "beta/base_link";
     wrench.wrench.torque.z = 0.4;
     wrench.duration = ros::Duration(0.3);
-    record(applyWrenchEvent(scenario_, wrench, "world", run_.simulation().tick()));
+    record(applyWrenchEvent(scenario_, wrench, TfFrames(), run_.simulation().tick()));
     advance(38);
     const std::string snapshot = hovercraft::toSnapshot(run_.simulation());
     record(resetEvent(3));

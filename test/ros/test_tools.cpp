@@ -25,8 +25,8 @@ struct Outcome {
   std::string output;  // both streams
 };
 
-/// Runs a tool of the package, which lies beside this test, or a script of the source folder. `{}`
-/// in the arguments is the folder.
+/// Runs a tool of the package, which lies beside this test, or a script of the source folder, or
+/// bash. `{}` in the arguments is the folder.
 class Tools : public ::testing::Test {
  protected:
   Outcome run(std::string arguments) const {
@@ -34,7 +34,8 @@ class Tools : public ::testing::Test {
          at = arguments.find("{}")) {
       arguments.replace(at, 2, folder_.file(""));
     }
-    const bool is_script = arguments.rfind("python3 ", 0) == 0;
+    const bool is_script = arguments.rfind("python3 ", 0) == 0 ||
+                           arguments.rfind("scripts/", 0) == 0 || arguments.rfind("bash ", 0) == 0;
     const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     const std::string command = is_script ? arguments : folder.string() + "/" + arguments;
     std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
@@ -304,6 +305,37 @@ TEST_F(Tools, HelpIsNoError) {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.output.rfind(tool, 0), 0U) << outcome.output;
   }
+}
+
+// enter_ros is what each script calls before anything of ROS.
+TEST_F(Tools, ScriptsSayInOneLineThatTheirHostNameCannotBeResolved) {
+  const Outcome lost =
+      run("bash -c '. scripts/common.sh; ROS_HOSTNAME=no-such-host.invalid; enter_ros; echo on'");
+  EXPECT_EQ(lost.status, 1);
+  EXPECT_EQ(lost.output.rfind("bash: the name no-such-host.invalid cannot be resolved", 0), 0U)
+      << lost.output;
+  EXPECT_EQ(lost.output.find('\n'), lost.output.size() - 1) << lost.output;
+}
+
+TEST_F(Tools, ScriptsFindAFreePortWithoutAnyName) {
+  const Outcome port = run("bash -c '. scripts/common.sh; port=$(free_port); echo $port'");
+  EXPECT_EQ(port.status, 0);
+  EXPECT_GE(std::stoi(port.output), 1024) << port.output;
+  EXPECT_NE(contentOf("scripts/common.sh").find("bind((\"127.0.0.1\", 0))"), std::string::npos);
+}
+
+TEST_F(Tools, TheDemoRefusesCommandsThatAreNotThere) {
+  for (const char* arguments : {"'{}no such.csv'", "'{}no folder/c.csv'", "'{}'"}) {
+    const Outcome missing = run(std::string("scripts/demo ") + arguments);
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.output.find(": there is no such file, or it cannot be read\n"),
+              std::string::npos)
+        << missing.output;
+    EXPECT_EQ(missing.output.find('\n'), missing.output.size() - 1) << missing.output;
+  }
+  const Outcome usage = run("scripts/demo config/manoeuvre.csv config/manoeuvre.csv");
+  EXPECT_EQ(usage.status, 1);
+  EXPECT_EQ(usage.output, "demo: usage: scripts/demo [COMMANDS.csv]\n");
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(VehicleMessages, StampIsEpochPlusTimeInWholeNanoseconds) {
 
 TEST(VehicleMessages, EveryHeaderHasTheStampAndItsFrame) {
   const Simulation simulation = flownSimulation();
-  VehicleMessages messages(simulation.scenario(), 0, "map");
+  VehicleMessages messages(simulation.scenario(), 0, {"map", ""});
   messages.fill(simulation, {kStampOfAll});
   const std::vector<const std_msgs::Header*> in_world = {
       &messages.pose().header, &messages.odom().header, &messages.transform().header,
@@ -51,6 +51,32 @@ TEST(VehicleMessages, EveryHeaderHasTheStampAndItsFrame) {
   EXPECT_EQ(messages.odom().child_frame_id, "alpha/base_link");
   EXPECT_EQ(messages.transform().child_frame_id, "alpha/base_link");
   EXPECT_EQ(messages.name(), "alpha");
+}
+
+TEST(VehicleMessages, EveryFrameButTheWorldHasThePrefix) {
+  const Simulation simulation = flownSimulation();
+  VehicleMessages messages(simulation.scenario(), 0, {"map", "fleet/red"});
+  messages.fill(simulation, {kStampOfAll});
+  for (const std_msgs::Header* header : {&messages.pose().header, &messages.odom().header,
+                                         &messages.transform().header, &messages.state().header}) {
+    EXPECT_EQ(header->frame_id, "map");
+  }
+  const std::string base = "fleet/red/alpha/base_link";
+  EXPECT_EQ(messages.twist().header.frame_id, base);
+  EXPECT_EQ(messages.engines().header.frame_id, base);
+  EXPECT_EQ(messages.appliedCommand({}, {kStampOfAll}).header.frame_id, base);
+  EXPECT_EQ(messages.odom().child_frame_id, base);
+  EXPECT_EQ(messages.transform().child_frame_id, base);
+  const auto engines = messages.engineFrames(kStampOfAll);
+  ASSERT_EQ(engines.size(), 3U);
+  for (const auto& engine : engines) EXPECT_EQ(engine.header.frame_id, base);
+  EXPECT_EQ(engines[0].child_frame_id, "fleet/red/alpha/engine_rear");
+  EXPECT_EQ(engines[1].child_frame_id, "fleet/red/alpha/engine_left");
+  EXPECT_EQ(engines[2].child_frame_id, "fleet/red/alpha/engine_right");
+  EXPECT_EQ(prefixOf(base, "alpha"), "fleet/red");
+  EXPECT_EQ(prefixOf("alpha/base_link", "alpha"), "");
+  EXPECT_EQ(prefixOf("beta/base_link", "alpha"), "");
+  EXPECT_EQ(prefixOf("", "alpha"), "");
 }
 
 TEST(VehicleMessages, TheWorldFrameIsCalledWorldIfNothingElseIsSaid) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tf2_msgs/TFMessage.h>
 #include <vector>
 
 #include <hovercraft_sim/RunEvent.h>
@@ -12,10 +13,11 @@
 #include <ros/publisher.h>
 #include <ros/wall_timer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include "hovercraft_sim/ros/body_messages.h"
 #include "hovercraft_sim/ros/clock_source.h"
+#include "hovercraft_sim/ros/command_schedule.h"
+#include "hovercraft_sim/ros/graph_watch.h"
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/lockstep.h"
 #include "hovercraft_sim/ros/node_config.h"
@@ -55,6 +57,8 @@ class HovercraftNode {
   /// @param wanted one that breaks isRealTimeFactor() is refused with a warning.
   /// @returns the factor that the node has now.
   double changeRealTimeFactor(double wanted);
+  /// Takes commands that act at ticks to come. @param commands of ticks that are not past.
+  void schedule(const std::vector<hovercraft::Command>& commands) { schedule_.add(commands); }
   /// Steps now, whatever the pace. @throws std::runtime_error if the node is shut down meanwhile.
   void stepPaused(std::uint32_t steps);
   /// Applies and publishes an event. @throws std::invalid_argument as applyEvent(); nothing has
@@ -62,9 +66,15 @@ class HovercraftNode {
   void apply(const hovercraft_sim::RunEvent& event);
 
  private:
+  void addVehicle(const ros::NodeHandle& handle, std::size_t vehicle);
+  void addBody(const ros::NodeHandle& handle, std::size_t body);
+  void addReports(ros::NodeHandle& own);
+  ros::Publisher advertiseTransforms(ros::NodeHandle handle);
+  Claims claims() const;
   void publishConstants();
   void setRealTimeFactor(double real_time_factor);
   void restartPace();
+  bool stands() const;
   bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
   const char* take(hovercraft::Command command, const std::optional<ros::Time>& stamp);
   hovercraft::Tick nextVisibleTick() const;
@@ -72,7 +82,9 @@ class HovercraftNode {
   void advance();
   bool isStepDue(std::int64_t now_ns) const;
   void stepOnce();
+  void pushScheduled();
   void awaitCommands();
+  void gatherTransforms();
   void publishState();
   void noticeSilence(std::int64_t now_ns);
   void report();
@@ -81,6 +93,7 @@ class HovercraftNode {
   NodeConfig config_;
   LiveRun run_;
   Lockstep lockstep_;
+  CommandSchedule schedule_;
   std::optional<Pacer> pacer_;  // none: as fast as it can
   std::optional<ClockSource> clock_;
   bool paused_;
@@ -89,9 +102,10 @@ class HovercraftNode {
   std::vector<ros::Publisher> body_poses_;  // of each
   ros::Publisher contacts_;
   ros::Publisher scenario_, events_, telemetry_;
-  tf2_ros::TransformBroadcaster transforms_;
+  ros::Publisher transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
-  std::vector<geometry_msgs::TransformStamped> transform_batch_;
+  tf2_msgs::TFMessage transforms_message_;
+  std::optional<GraphWatch> graph_watch_;
 
   PaceReport pace_;
   hovercraft_sim::Telemetry telemetry_message_;

@@ -9,7 +9,8 @@
 
 namespace hovercraft_ros {
 
-/// The services that steer a run: ~pause ~resume ~step ~reset ~set_state ~apply_wrench ~save ~load.
+/// The services that steer a run: ~pause ~resume ~step ~reset ~set_state ~apply_wrench
+/// ~schedule ~save ~load.
 /// A request that cannot be met is answered with success = false and the reason; it changes
 /// nothing.
 class NodeServices {

@@ -7,6 +7,7 @@
 #include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/SetState.h>
 
+#include "hovercraft_sim/ros/tf_frames.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -28,12 +29,13 @@ hovercraft_sim::RunEvent loadEvent(const std::string& snapshot);
 hovercraft_sim::RunEvent setStateEvent(const hovercraft::Scenario& scenario,
                                        const hovercraft_sim::SetState::Request& request);
 
-/// @param tick at which the wrench begins.
+/// @param tick at which the wrench begins. @param frames those that a request may name: the world,
+/// or the craft's.
 /// @throws std::invalid_argument if the request names no vehicle, no frame that fits, is not finite
 /// or lasts no time.
 hovercraft_sim::RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
                                           const hovercraft_sim::ApplyWrench::Request& request,
-                                          const std::string& world_frame, hovercraft::Tick tick);
+                                          const TfFrames& frames, hovercraft::Tick tick);
 
 /// Changes the simulation as the event says, at its current tick.
 /// @throws std::invalid_argument if a snapshot does not fit the scenario, a motion has momenta or

@@ -38,7 +38,7 @@ struct SimulateRequest {
 constexpr std::int64_t kAfterLastCommandNs = 1000000000;
 
 /// Runs a scenario as fast as it goes. Says in `messages` which engines timed out, and at the end
-/// how long it took and the hash of the last state.
+/// what a step cost (without the output), how long it all took and the hash of the last state.
 /// @throws std::invalid_argument for whatever in the request or its files is bad, and if the output
 /// cannot be written.
 hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages);

@@ -33,6 +33,9 @@ visualization_msgs::Marker bodyMarker(const hovercraft::VehicleScenario& body);
 std::vector<visualization_msgs::Marker> obstacleMarkers(const hovercraft::Scenario& scenario,
                                                         const std::string& world_frame);
 
+/// Puts the prefix of tf frames (TfFrames) before the frame of each.
+void addPrefix(const std::string& prefix, std::vector<visualization_msgs::Marker>& markers);
+
 /// The way that base_link came, a line in the world frame.
 visualization_msgs::Marker pathMarker(const hovercraft::VehicleScenario& craft,
                                       const std::string& world_frame,
