@@ -4,7 +4,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <yaml-cpp/yaml.h>
 
 #include <ros/callback_queue.h>
 #include <ros/console.h>
@@ -35,7 +34,7 @@ hovercraft::Scenario receiveScenario(const ros::NodeHandle& handle) {
         "no scenario on " + node.resolveName("scenario") +
         ": is the simulation running, and the topic remapped to its ~scenario?");
   }
-  return hovercraft::parseScenario(YAML::Load(text), {node.resolveName("scenario"), "", {}});
+  return hovercraft::parseScenario(text, {node.resolveName("scenario"), "", {}});
 }
 
 }  // namespace

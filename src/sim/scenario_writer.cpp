@@ -13,11 +13,11 @@ namespace hovercraft {
 namespace {
 
 std::string text(double number) {
-  return fmt::format("{:.17g}", number);
+  return yamlNumber(number);
 }
 
 std::string text(const Vector3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
+  return yamlVector(v);
 }
 
 struct ShapeWriter {
@@ -34,7 +34,9 @@ struct ShapeWriter {
   std::string operator()(const ConeShape& cone) const {
     return "cone: {radius: " + text(cone.radius) + ", length: " + text(cone.length) + "}";
   }
-  std::string operator()(const MeshShape& mesh) const { return "mesh: {file: " + mesh.file + "}"; }
+  std::string operator()(const MeshShape& mesh) const {
+    return "mesh: {file: " + yamlText(mesh.file) + "}";
+  }
 };
 
 std::string massText(const VehicleScenario& vehicle) {
@@ -46,15 +48,15 @@ std::string massText(const VehicleScenario& vehicle) {
   if (by_numbers) {
     const Matrix3& I = vehicle.mass_properties.I_BBo_B;
     return fmt::format(
-        "    mass: {:.17g}\n    center_of_mass: {}\n    inertia: {{ixx: {:.17g}, iyy: {:.17g}, "
-        "izz: {:.17g}, ixy: {:.17g}, ixz: {:.17g}, iyz: {:.17g}}}\n",
-        vehicle.mass_properties.mass, text(vehicle.mass_properties.p_HB), I(0, 0), I(1, 1), I(2, 2),
-        I(0, 1), I(0, 2), I(1, 2));
+        "    mass: {}\n    center_of_mass: {}\n    inertia: {{ixx: {}, iyy: {}, izz: {}, ixy: {}, "
+        "ixz: {}, iyz: {}}}\n",
+        text(vehicle.mass_properties.mass), text(vehicle.mass_properties.p_HB), text(I(0, 0)),
+        text(I(1, 1)), text(I(2, 2)), text(I(0, 1)), text(I(0, 2)), text(I(1, 2)));
   }
   std::string parts = "    parts:\n";
   for (const PartScenario& part : vehicle.parts) {
-    parts += fmt::format("      - {{{}, mass: {:.17g}, position: {}, rpy: {}}}\n",
-                         std::visit(ShapeWriter(), part.shape), part.mass, text(part.p_HP),
+    parts += fmt::format("      - {{{}, mass: {}, position: {}, rpy: {}}}\n",
+                         std::visit(ShapeWriter(), part.shape), text(part.mass), text(part.p_HP),
                          text(part.rpy));
   }
   return parts;
@@ -65,10 +67,10 @@ std::string engineText(const VehicleScenario& vehicle) {
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     const EngineParameters& engine = vehicle.engines[i];
     yaml += fmt::format(
-        "      {}: {{position: {}, direction: {}, min_thrust: {:.17g}, max_thrust: {:.17g}, "
-        "time_constant: {:.17g}, timeout: {:.17g}}}\n",
-        kEngineNames[i], text(engine.p_HE), text(engine.direction), engine.min_thrust,
-        engine.max_thrust, engine.time_constant, toSeconds(engine.timeout_ns));
+        "      {}: {{position: {}, direction: {}, min_thrust: {}, max_thrust: {}, "
+        "time_constant: {}, timeout: {}}}\n",
+        kEngineNames[i], text(engine.p_HE), text(engine.direction), text(engine.min_thrust),
+        text(engine.max_thrust), text(engine.time_constant), text(toSeconds(engine.timeout_ns)));
   }
   return yaml;
 }
@@ -76,7 +78,7 @@ std::string engineText(const VehicleScenario& vehicle) {
 /// A craft, or a loose body, which has no engines to write.
 std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario,
                         bool has_engines) {
-  std::string yaml = fmt::format("  {}:\n{}", vehicle.name, massText(vehicle));
+  std::string yaml = fmt::format("  {}:\n{}", yamlText(vehicle.name), massText(vehicle));
   if (has_engines) yaml += engineText(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
   yaml += fmt::format(
@@ -94,9 +96,9 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
 
 std::string toYaml(const Scenario& scenario) {
   std::string yaml = fmt::format(
-      "step_size: {:.17g}\nintegrator: {}\norientation: {}\nmodel: {}\ngravity: {}\nwind: {}\n"
+      "step_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\ngravity: {}\nwind: {}\n"
       "seed: {}\nvehicles:\n",
-      scenario.stepSize(), kIntegratorNames[static_cast<std::size_t>(scenario.integrator)],
+      text(scenario.stepSize()), kIntegratorNames[static_cast<std::size_t>(scenario.integrator)],
       kOrientationNames[static_cast<std::size_t>(scenario.orientation)],
       kModelNames[static_cast<std::size_t>(scenario.model)], text(scenario.gravity),
       text(scenario.wind), scenario.seed);
