@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 #include <unistd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <ros/callback_queue.h>
 #include <ros/console.h>
@@ -40,7 +39,7 @@ hovercraft::Scenario receiveScenario(const ros::NodeHandle& handle) {
         "no scenario on " + node.resolveName("scenario") +
         ": is the simulation running, and the topic remapped to its ~scenario?");
   }
-  return hovercraft::parseScenario(YAML::Load(text), {node.resolveName("scenario"), "", {}});
+  return hovercraft::parseScenario(text, {node.resolveName("scenario"), "", {}});
 }
 
 /// Interrupts the roslaunch that started this node, as Ctrl-C does, and waits to be stopped with

@@ -7,7 +7,6 @@
 #include <std_srvs/Trigger.h>
 #include <stdexcept>
 #include <utility>
-#include <yaml-cpp/yaml.h>
 
 #include <hovercraft_sim/Reset.h>
 #include <hovercraft_sim/ThrustCommand.h>
@@ -134,7 +133,7 @@ hovercraft::Scenario Flight::receiveScenario() const {
   const std::string topic = node_ + "/scenario";
   const ros::Subscriber subscriber = handle.subscribe<std_msgs::String>(topic, 1, on_scenario);
   waitUntil("a scenario on " + topic, [&text] { return !text.empty(); });
-  return hovercraft::parseScenario(YAML::Load(text), {topic, "", {}});
+  return hovercraft::parseScenario(text, {topic, "", {}});
 }
 
 void Flight::call(const std::string& service) const {

@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <visualization_msgs/MarkerArray.h>
-#include <yaml-cpp/yaml.h>
 
 #include <ros/console.h>
 
@@ -37,8 +36,8 @@ void MarkersNode::onScenario(const std_msgs::String& message) {
   still_.clear();
   scenario_ = hovercraft::Scenario();
   try {
-    const hovercraft::Scenario scenario = hovercraft::parseScenario(
-        YAML::Load(message.data), {handle_.resolveName("scenario"), "", {}});
+    const hovercraft::Scenario scenario =
+        hovercraft::parseScenario(message.data, {handle_.resolveName("scenario"), "", {}});
     for (const hovercraft::VehicleScenario& description : scenario.vehicles) watch(description);
     scenario_ = scenario;
   } catch (const std::exception& error) {

@@ -126,8 +126,7 @@ class Reader {
       }
       recording_.scenario_text = messageAs<std_msgs::String>(path_, instance)->data;
       const std::string source = path_ + ": " + topic;
-      recording_.scenario = hovercraft::parseScenario(
-          hovercraft::treeOf(recording_.scenario_text, source), {source, "", {}});
+      recording_.scenario = hovercraft::parseScenario(recording_.scenario_text, {source, "", {}});
       return;
     }
     throw std::invalid_argument(path_ +

@@ -132,9 +132,9 @@ void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scena
 
 }  // namespace
 
-Scenario loadScenarioFile(const std::string& path) {
+Scenario loadScenarioFile(const std::string& path, const hovercraft::OverrideList& overrides) {
   return hovercraft::loadScenario(
-      path, [](const std::string& package) { return ros::package::getPath(package); });
+      path, [](const std::string& package) { return ros::package::getPath(package); }, overrides);
 }
 
 std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
@@ -161,7 +161,7 @@ std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
 
 hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages) {
   checkRequest(request);
-  Scenario scenario = loadScenarioFile(request.scenario);
+  Scenario scenario = loadScenarioFile(request.scenario, {"--set", request.sets});
   if (request.hold) {
     for (hovercraft::VehicleScenario& vehicle : scenario.vehicles) {
       for (hovercraft::EngineParameters& engine : vehicle.engines) engine.timeout_ns = 0;

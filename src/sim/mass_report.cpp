@@ -8,6 +8,7 @@
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
 namespace {
@@ -61,7 +62,7 @@ BodyReport reportOnMesh(const MassReportRequest& request) {
 
 /// A number for JSON. Adding 0 turns -0 into 0.
 std::string exact(double number) {
-  return fmt::format("{:.17g}", number + 0.0);
+  return numberText(number + 0.0);
 }
 
 std::string jsonOf(const Vector3& v) {

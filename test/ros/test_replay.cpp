@@ -19,6 +19,7 @@
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/replay.h"
 #include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 #include "../support/files.h"
@@ -283,9 +284,10 @@ TEST_F(RecordedRun, ADifferenceIsToldWithItsPlaceAndBothValues) {
   writeBag(recording_, {"alpha", "beta"}, folder.file("run.bag"));
   std::string verdict;
   EXPECT_EQ(replayBag({folder.file("run.bag"), "", {}}, verdict), 1);
-  EXPECT_EQ(verdict, fmt::format("different: episode 2, tick {}, alpha: velocity = {:.17g} "
-                                 "recorded, {:.17g} replayed",
-                                 changed.time.tick, recorded, replayed));
+  EXPECT_EQ(verdict, fmt::format("different: episode 2, tick {}, alpha: velocity = {} recorded, "
+                                 "{} replayed",
+                                 changed.time.tick, hovercraft::numberText(recorded),
+                                 hovercraft::numberText(replayed)));
   changed.state.velocity.x = replayed;
   changed.state.hash ^= 0xfU;
   writeBag(recording_, {"alpha", "beta"}, folder.file("run.bag"));

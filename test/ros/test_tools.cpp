@@ -129,6 +129,26 @@ TEST_F(Tools, ReplayAnswersWhatIfAndCompareSaysWhereTheyPart) {
   EXPECT_NE(parted.output.find("in B (B - A = -2.5e-05)\n"), std::string::npos) << parted.output;
 }
 
+TEST_F(Tools, SimulateAndReplayTakeTheSameOtherValues) {
+  folder_.write("s.yaml", oneCraftYaml());
+  folder_.write("c.csv", "time,rear,left,right\n0.03,3,1,0\n");
+  const std::string sets =
+      "--set 'vehicles.craft.mass=3; wind=[0, 1, 0]' -s "
+      "vehicles.craft.engines.left.direction[1]=1";
+  ASSERT_EQ(run("simulate {}s.yaml -c {}c.csv -d 0.2 -o {}run.bag").status, 0);
+  const Outcome flown = run("simulate {}s.yaml -c {}c.csv -d 0.2 " + sets + " -o {}changed.bag");
+  ASSERT_EQ(flown.status, 0) << flown.output;
+  ASSERT_EQ(run("replay {}run.bag " + sets + " --output {}what_if.bag").status, 0);
+  EXPECT_EQ(run("compare {}changed.bag {}what_if.bag").status, 0);
+  EXPECT_EQ(run("compare {}run.bag {}what_if.bag").status, 1);
+  EXPECT_EQ(run("replay {}changed.bag").status, 0);
+  const Outcome bad = run("simulate {}s.yaml -d 0.2 --set vehicles.raft.mass=3 -o {}bad.csv");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_EQ(bad.output,
+            "simulate: --set vehicles.raft.mass=3: vehicles has no key raft; there: craft\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("bad.csv")));
+}
+
 TEST_F(Tools, PlotRunDrawsTheOnlyCraftAmongLooseBodies) {
   ASSERT_EQ(run("simulate config/crates.yaml -d 0.5 -o {}crates.bag").status, 0);
   const Outcome drawn = run("python3 scripts/plot_run.py {}crates.bag -o {}run.png");

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <string>
-#include <yaml-cpp/yaml.h>
 
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/ros/tf_frames.h"
+#include "hovercraft_sim/sim/config_node.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros {
@@ -38,12 +38,14 @@ struct NodeConfig {
 bool isRealTimeFactor(double factor);
 extern const char* const kRealTimeFactorRuleText;
 
-/// @param parameters the node's private namespace as a tree: `scenario` (design: scenario file),
+/// @param parameters the node's private namespace (parameterTree): `scenario`, the text of a
+/// scenario file, with `scenario_dir`, the absolute path that its relative mesh paths start from;
+/// or `scenario_file`, the absolute path of one; `set`, overrides of either (withOverrides);
 /// `publish_rate` in Hz (a divisor of the step rate; default the nearest to 100),
 /// `control_period` in s (a multiple of the step size; default the publish period; an error without
 /// `lockstep`), `world_frame` and `tf_prefix`, and what the other members of NodeConfig are called.
 /// @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
-NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name);
+NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name);
 
 }  // namespace hovercraft_ros

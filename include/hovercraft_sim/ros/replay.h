@@ -16,7 +16,7 @@ struct ReplayDifference {
   RunTime time;
   std::string vehicle;
   std::string field;
-  std::string recorded;  // with every digit
+  std::string recorded;  // to the last bit
   std::string replayed;
 };
 
@@ -51,7 +51,7 @@ ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scen
 struct ReplayRequest {
   std::string bag;
   std::string output;             // a bag to write anew, or empty
-  std::vector<std::string> sets;  // KEY.PATH=VALUE: changes of the scenario
+  std::vector<std::string> sets;  // KEY.PATH=VALUE: withOverrides()
 };
 
 /// Replays a bag and says in one line what came of it.

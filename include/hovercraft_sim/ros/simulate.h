@@ -3,15 +3,18 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/overrides.h"
 #include "hovercraft_sim/sim/run.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros {
 
-/// A scenario file; package:// paths in it are found by rospack.
-hovercraft::Scenario loadScenarioFile(const std::string& path);
+/// A scenario file; package:// paths in it are found by rospack. @throws as loadScenario().
+hovercraft::Scenario loadScenarioFile(const std::string& path,
+                                      const hovercraft::OverrideList& overrides = {});
 
 /// Commands from a CSV file or a bag, whichever the file is.
 /// @throws std::invalid_argument, see CsvCommandSource and BagCommandSource.
@@ -26,8 +29,9 @@ std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
 
 /// What the tool `simulate` was asked for.
 struct SimulateRequest {
-  std::string scenario;         // file
-  std::string commands;         // file; empty: nobody commands anything
+  std::string scenario;           // file
+  std::vector<std::string> sets;  // KEY.PATH=VALUE: withOverrides()
+  std::string commands;           // file; empty: nobody commands anything
   std::string duration;         // decimal seconds; empty: until kAfterLastCommandNs after the last
   std::string output;           // as openOutput()
   std::string contacts;         // CSV file of contacts; empty: none

@@ -13,7 +13,7 @@ extern const char* const kContactKindNames[3];
 
 /// Hands everything on to another sink, and writes the contacts as CSV with the header
 /// `time,kind,a,b,x,y,z,nx,ny,nz,jx,jy,jz`: s, bounce | stick | rest, names, point (m), normal from
-/// a to b, impulse on b (N s), all in W. 17 significant digits.
+/// a to b, impulse on b (N s), all in W. Numbers as appendNumber().
 class ContactsCsvWriter : public StateSink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.

@@ -36,7 +36,7 @@ std::vector<BodyReport> bodiesOf(
 /// Text for people: one paragraph for each body, 9 significant digits.
 std::string toText(const std::vector<BodyReport>& bodies);
 
-/// One JSON object with 17 significant digits, ending in a line break. A single body is the object
+/// One JSON object, numbers as appendNumber(), ending in a line break. A single body is the object
 /// itself: vehicle (of a scenario), mass, volume (null if unknown), center_of_mass, inertia (3 × 3,
 /// about the centre of mass), principal_moments (ascending), principal_axes (one unit vector for
 /// each moment; right-handed). Several are in {"vehicles": {NAME: object, ...}}.

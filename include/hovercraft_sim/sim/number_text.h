@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <string>
 
-#include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
 
@@ -31,17 +30,16 @@ ParsedNumber parseNumber(const std::string& text);
 /// @param text parseNumber() finds in it a number of at most kMaxNanoseconds, of either sign.
 std::int64_t parseNanoseconds(const std::string& text);
 
-/// Appends a number with up to 17 significant digits, correctly rounded, the text of printf's
-/// %.17g: parseNumber() gives the same bits again. Several times as fast as printf for the numbers
-/// that a craft's motion is made of.
-/// @param number finite.
+/// Appends the shortest decimal number that parseNumber() reads as the same bits, and of several
+/// the nearest one: 0.6, not 0.59999999999999998. Written as %g writes: with an exponent below 1e-4
+/// and from 1e17 on. Several times as fast as printf for the numbers that a craft's motion is made
+/// of.
+/// @param number if it is not finite, what is written is a word that parseNumber() refuses.
 void appendNumber(fmt::memory_buffer& buffer, double number);
+std::string numberText(double number);
 
 /// Appends whole nanoseconds as seconds, exactly and without trailing zeros: 1500000000 is 1.5.
 void appendSeconds(fmt::memory_buffer& buffer, std::int64_t time_ns);
 std::string secondsText(std::int64_t time_ns);
-
-/// A vector as a list of YAML with 17 digits: the same bits when it is read again.
-std::string vectorText(const Vector3& v);
 
 }  // namespace hovercraft

@@ -7,7 +7,7 @@
 
 namespace hovercraft {
 
-/// The state of a run as YAML text: the scenario, and every number of the state with 17 digits, so
+/// The state of a run as YAML text: the scenario, and every number of the state to the last bit, so
 /// that it comes back to the last bit, and the commands that wait to take effect. A run that goes
 /// on from it gives the same bits as the run that never stopped. The hash of the state is written
 /// with it and checked when it is read (waiting commands are not in it).

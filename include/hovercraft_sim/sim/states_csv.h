@@ -13,7 +13,7 @@ namespace hovercraft {
 /// Writes states as CSV with the header `time,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz`: s, m, m/s,
 /// rad/s; position of the centre of mass and both velocities in world axes, q = B -> W. Of several
 /// vehicles and loose bodies each has its row, with its name in a column `vehicle` after the time.
-/// Times are exact; the other numbers have the 17 digits that tell one double from the next.
+/// Times are exact; the other numbers have the digits that tell one double from the next.
 class StatesCsvWriter : public StateSink {
  public:
   /// @param path `-` is the standard output.
