@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
     XmlRpc::XmlRpcValue parameters;
     ros::param::get("~", parameters);
     const hovercraft_ros::PlayConfig config =
-        hovercraft_ros::parsePlayConfig(hovercraft_ros::toYaml(parameters, name), name);
+        hovercraft_ros::parsePlayConfig(hovercraft_ros::parameterTree(parameters, name), name);
     const hovercraft::Scenario scenario = receiveScenario(handle);
     hovercraft_ros::CommandPlayer player(
         handle, scenario, std::make_unique<hovercraft::CsvCommandSource>(config.file, scenario),

@@ -21,11 +21,11 @@ const hovercraft::NumberRule kSettleRule = {
 
 }  // namespace
 
-PlayConfig parsePlayConfig(const YAML::Node& parameters, const std::string& node_name) {
-  if (!parameters.IsMap() || !parameters["file"].IsDefined()) {
+PlayConfig parsePlayConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name) {
+  const hovercraft::ConfigReader reader(parameters, node_name);
+  if (!reader.has("file")) {
     throw std::invalid_argument(node_name + "/file: the parameter is missing: a commands CSV");
   }
-  const hovercraft::ConfigReader reader(parameters, node_name);
   reader.allowOnly({"file", "settle", "wanted_subscribers", "ends_launch"});
   PlayConfig config;
   config.file = reader.text("file");

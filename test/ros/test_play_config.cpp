@@ -1,17 +1,17 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
-#include <yaml-cpp/yaml.h>
 
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/ros/play_config.h"
+#include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft_ros {
 namespace {
 
 PlayConfig parsed(const std::string& yaml) {
-  return parsePlayConfig(YAML::Load(yaml), "/play");
+  return parsePlayConfig(hovercraft::treeOf(yaml, "parameters"), "/play");
 }
 
 std::string errorOf(const std::string& yaml) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/philox.h"
 #include "hovercraft_sim/math/time.h"
 
@@ -15,7 +16,7 @@ namespace hovercraft {
 /// normal quantile Φ⁻¹(1 - p) by Wichura's AS 241 (PPND16, Applied Statistics 37, 1988). The law is
 /// the normal one in 2^53 atoms of equal weight; the largest magnitude is 8.2924. Absolute error at
 /// most 4.1e-15. Only + - * / and sqrt: the same bits on every machine.
-double normalFromBits(std::uint64_t bits);
+HOVERCRAFT_PUBLIC double normalFromBits(std::uint64_t bits);
 
 /// FNV-1a (Fowler, Noll, Vo), 32 bits, of a name's bytes.
 constexpr std::uint32_t streamOf(std::string_view name) {
@@ -30,7 +31,7 @@ constexpr std::uint32_t streamOf(std::string_view name) {
 /// White noise of one channel of one source ("vehicle/source/channel"). A draw is a function of
 /// seed, channel, tick and number alone: nothing is remembered, the order of draws does not matter,
 /// and no other channel can change it.
-class NoiseChannel {
+class HOVERCRAFT_PUBLIC NoiseChannel {
  public:
   /// @param seed of the run. @param stream from streamOf() or NoiseStreams.
   NoiseChannel(std::int64_t seed, std::uint32_t stream)
@@ -55,7 +56,7 @@ class NoiseChannel {
 };
 
 /// The names of a run's noise channels: no two may share a stream.
-class NoiseStreams {
+class HOVERCRAFT_PUBLIC NoiseStreams {
  public:
   /// @param name "vehicle/source/channel". @returns its stream.
   /// @throws std::invalid_argument with both names if another one has the same stream, or if it was

@@ -7,6 +7,7 @@
 
 #include <hovercraft_sim/ScheduleCommands.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
 
@@ -14,7 +15,7 @@ namespace hovercraft_ros {
 
 /// Commands that were handed over before their time. The run takes each just before the step of
 /// its tick, as if it came then.
-class CommandSchedule {
+class HOVERCRAFT_PUBLIC CommandSchedule {
  public:
   void add(const std::vector<hovercraft::Command>& commands);
   void clear() { waiting_.clear(); }
@@ -31,7 +32,7 @@ class CommandSchedule {
 /// The commands of a request. @param episode, tick where the run stands.
 /// @throws std::invalid_argument if the vehicle is unknown, or a command is of another episode, in
 /// the past, for no engine or not finite.
-std::vector<hovercraft::Command> scheduledCommands(
+HOVERCRAFT_PUBLIC std::vector<hovercraft::Command> scheduledCommands(
     const hovercraft::Scenario& scenario, const hovercraft_sim::ScheduleCommands::Request& request,
     std::uint32_t episode, hovercraft::Tick tick);
 

@@ -13,6 +13,7 @@
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/trajectory.h"
@@ -26,7 +27,7 @@ namespace hovercraft_ros {
 /// Commands are handed to the simulation before it flies (~schedule) and act at the ticks at which
 /// `simulate` applies them, in lockstep or not, on the control grid or off it, whatever the load of
 /// the machine: the states have the same bits.
-class Flight {
+class HOVERCRAFT_PUBLIC Flight {
  public:
   /// Waits for the simulation and takes it back to its start, where it stays paused.
   /// @param node name of the simulation's node; the craft lie in the same namespace.
@@ -96,7 +97,8 @@ struct FlightVerdict {
 /// reference from the flight's first state on, interpolating where the flight has no state of that
 /// time. A flight that ends before its reference does not follow it.
 /// @throws std::invalid_argument about the reference.
-FlightVerdict judge(const std::vector<hovercraft::Trajectory>& flown, const std::string& reference,
-                    const FlightTolerance& tolerance);
+HOVERCRAFT_PUBLIC FlightVerdict judge(const std::vector<hovercraft::Trajectory>& flown,
+                                      const std::string& reference,
+                                      const FlightTolerance& tolerance);
 
 }  // namespace hovercraft_ros

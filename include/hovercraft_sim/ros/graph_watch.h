@@ -11,6 +11,8 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// What only one node may publish.
@@ -25,18 +27,18 @@ using PublishersByTopic = std::map<std::string, std::set<std::string>>;
 
 /// The nodes but `self` that publish a claimed topic, or a claimed /clock, with the reason why they
 /// must not.
-std::map<std::string, std::string> conflictsOf(const Claims& claims,
-                                               const PublishersByTopic& publishers,
-                                               const std::string& self);
+HOVERCRAFT_PUBLIC std::map<std::string, std::string> conflictsOf(
+    const Claims& claims, const PublishersByTopic& publishers, const std::string& self);
 
 /// The first claimed frame among the children of the transforms; empty if there is none.
-std::string claimedFrame(const Claims& claims, const tf2_msgs::TFMessage& transforms);
+HOVERCRAFT_PUBLIC std::string claimedFrame(const Claims& claims,
+                                           const tf2_msgs::TFMessage& transforms);
 
 /// Notices nodes that publish what this one claims, and a time that it does not go by. Each is said
 /// once in the log, and in the diagnostics as long as it is there. The master is asked at the
 /// start, and then while somebody is in conflict; else other nodes are heard of by their static
 /// frames and their clock.
-class GraphWatch {
+class HOVERCRAFT_PUBLIC GraphWatch {
  public:
   /// Call it when everything that is claimed has been advertised.
   GraphWatch(const ros::NodeHandle& handle, Claims claims);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/ros/tf_frames.h"
 #include "hovercraft_sim/sim/config_node.h"
@@ -35,8 +36,8 @@ struct NodeConfig {
 };
 
 /// A real-time factor that a run can have: 0, or kMinRealTimeFactor to kMaxRealTimeFactor.
-bool isRealTimeFactor(double factor);
-extern const char* const kRealTimeFactorRuleText;
+HOVERCRAFT_PUBLIC bool isRealTimeFactor(double factor);
+extern HOVERCRAFT_PUBLIC const char* const kRealTimeFactorRuleText;
 
 /// @param parameters the node's private namespace (parameterTree): `scenario`, the text of a
 /// scenario file, with `scenario_dir`, the absolute path that its relative mesh paths start from;
@@ -46,6 +47,7 @@ extern const char* const kRealTimeFactorRuleText;
 /// `lockstep`), `world_frame` and `tf_prefix`, and what the other members of NodeConfig are called.
 /// @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
-NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name);
+HOVERCRAFT_PUBLIC NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters,
+                                             const std::string& node_name);
 
 }  // namespace hovercraft_ros

@@ -3,6 +3,7 @@
 #include <XmlRpcValue.h>
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/config_node.h"
 
 namespace hovercraft_ros {
@@ -14,7 +15,7 @@ namespace hovercraft_ros {
 /// @param parameters a namespace; one that is not there has no parameters.
 /// @param name of the node: begins an error.
 /// @throws std::invalid_argument that names the parameter if it is of another type (binary, date).
-hovercraft::ConfigNode parameterTree(const XmlRpc::XmlRpcValue& parameters,
-                                     const std::string& name);
+HOVERCRAFT_PUBLIC hovercraft::ConfigNode parameterTree(const XmlRpc::XmlRpcValue& parameters,
+                                                       const std::string& name);
 
 }  // namespace hovercraft_ros

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <string>
-#include <yaml-cpp/yaml.h>
+
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/sim/config_node.h"
 
 namespace hovercraft_ros {
 
@@ -19,6 +21,7 @@ struct PlayConfig {
 /// called; `settle` in s.
 /// @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
-PlayConfig parsePlayConfig(const YAML::Node& parameters, const std::string& node_name);
+HOVERCRAFT_PUBLIC PlayConfig parsePlayConfig(const hovercraft::ConfigNode& parameters,
+                                             const std::string& node_name);
 
 }  // namespace hovercraft_ros

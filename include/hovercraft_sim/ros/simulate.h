@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/overrides.h"
 #include "hovercraft_sim/sim/run.h"
@@ -13,19 +14,19 @@
 namespace hovercraft_ros {
 
 /// A scenario file; package:// paths in it are found by rospack. @throws as loadScenario().
-hovercraft::Scenario loadScenarioFile(const std::string& path,
-                                      const hovercraft::OverrideList& overrides = {});
+HOVERCRAFT_PUBLIC hovercraft::Scenario loadScenarioFile(
+    const std::string& path, const hovercraft::OverrideList& overrides = {});
 
 /// Commands from a CSV file or a bag, whichever the file is.
 /// @throws std::invalid_argument, see CsvCommandSource and BagCommandSource.
-std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
-                                                        const hovercraft::Scenario& scenario);
+HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::CommandSource> openCommands(
+    const std::string& path, const hovercraft::Scenario& scenario);
 
 /// A bag if the name ends in .bag; CSV if it ends in .csv, is `-` (the standard output) or a
 /// device.
 /// @throws std::invalid_argument if it is neither, or cannot be opened for writing.
-std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
-                                                  const hovercraft::Scenario& scenario);
+HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::StateSink> openOutput(
+    const std::string& path, const hovercraft::Scenario& scenario);
 
 /// What the tool `simulate` was asked for.
 struct SimulateRequest {
@@ -45,6 +46,7 @@ constexpr std::int64_t kAfterLastCommandNs = 1000000000;
 /// what a step cost (without the output), how long it all took and the hash of the last state.
 /// @throws std::invalid_argument for whatever in the request or its files is bad, and if the output
 /// cannot be written.
-hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages);
+HOVERCRAFT_PUBLIC hovercraft::RunSummary simulate(const SimulateRequest& request,
+                                                  std::ostream& messages);
 
 }  // namespace hovercraft_ros

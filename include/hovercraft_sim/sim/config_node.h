@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft {
 
 /// A value of a scenario, a snapshot or a set of parameters, as it was written: nothing, a text, a
 /// list, or a map. It never changes and its copies share what it holds, so that a copy costs
 /// nothing and an alias of YAML is one.
-class ConfigNode {
+class HOVERCRAFT_PUBLIC ConfigNode {
  public:
   enum class Kind { kNull, kText, kList, kMap };
   using List = std::vector<ConfigNode>;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 #include "hovercraft_sim/sim/config_node.h"
 
@@ -16,16 +17,16 @@ struct NumberRule {
   bool (*holds)(double);
   const char* text;
 };
-extern const NumberRule kAnyNumber;
-extern const NumberRule kPositive;
-extern const NumberRule kNotNegative;
-extern const NumberRule kNotPositive;
+extern HOVERCRAFT_PUBLIC const NumberRule kAnyNumber;
+extern HOVERCRAFT_PUBLIC const NumberRule kPositive;
+extern HOVERCRAFT_PUBLIC const NumberRule kNotNegative;
+extern HOVERCRAFT_PUBLIC const NumberRule kNotPositive;
 
 /// One map of a tree, with the path by which the user knows it. Every reading function throws
 /// std::invalid_argument with one line: source, key path, value, rule. Numbers are decimal, as
 /// YAML 1.2 writes them, without quotes and leading zeros: what YAML 1.1 would read as another
 /// number is refused.
-class ConfigReader {
+class HOVERCRAFT_PUBLIC ConfigReader {
  public:
   /// @param source name of the file or parameter that the tree came from.
   /// @param path key path of `node` within the source; empty at the top.

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/config_node.h"
 
 namespace hovercraft {
@@ -19,9 +20,9 @@ struct OverrideList {
 /// brackets a semicolon separates nothing.
 /// @throws std::invalid_argument that names the override and the rule: for a path that leads
 /// nowhere, a value that is missing or is not YAML, one override that would undo another.
-ConfigNode withOverrides(const ConfigNode& tree, const OverrideList& overrides);
+HOVERCRAFT_PUBLIC ConfigNode withOverrides(const ConfigNode& tree, const OverrideList& overrides);
 
 /// What the messages about such a tree begin with: the source of the text and the overrides.
-std::string sourceWith(const std::string& source, const OverrideList& overrides);
+HOVERCRAFT_PUBLIC std::string sourceWith(const std::string& source, const OverrideList& overrides);
 
 }  // namespace hovercraft

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/overrides.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/yaml_text.h"
@@ -22,27 +23,27 @@ struct ScenarioSource {
 
 /// Checks a whole scenario. @param tree of treeOf().
 /// @throws std::invalid_argument with one line that names source, key path, value and rule.
-Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source);
+HOVERCRAFT_PUBLIC Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source);
 
 /// Parses and checks the text of a scenario: of a file, of a parameter, of a recording. There is
 /// one parser (treeOf), so a text means the same wherever it comes from.
 /// @param overrides see withOverrides(); messages name them behind the source.
 /// @throws std::invalid_argument also if the text is not YAML.
-Scenario parseScenario(const std::string& text, const ScenarioSource& source,
-                       const OverrideList& overrides = {});
+HOVERCRAFT_PUBLIC Scenario parseScenario(const std::string& text, const ScenarioSource& source,
+                                         const OverrideList& overrides = {});
 
 /// Reads the file and parses it; relative mesh paths start from its folder.
 /// @param package_folder see ScenarioSource.
 /// @param overrides as parseScenario().
 /// @throws std::invalid_argument also if the file cannot be read or is not YAML.
-Scenario loadScenario(const std::string& path,
-                      std::function<std::string(const std::string&)> package_folder = {},
-                      const OverrideList& overrides = {});
+HOVERCRAFT_PUBLIC Scenario loadScenario(
+    const std::string& path, std::function<std::string(const std::string&)> package_folder = {},
+    const OverrideList& overrides = {});
 
 /// The scenario with every default written out, numbers as the shortest text that gives the same
 /// bits, keys in a fixed order: parsing it gives the same scenario to the last bit. A craft with a
 /// mesh among its parts is written with its mass, centre of mass and inertia instead, so that the
 /// text needs no other file.
-std::string toYaml(const Scenario& scenario);
+HOVERCRAFT_PUBLIC std::string toYaml(const Scenario& scenario);
 
 }  // namespace hovercraft

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 #include "hovercraft_sim/sim/config_node.h"
 
@@ -28,11 +29,11 @@ ConfigNode treeOf(const std::string& text, const std::string& source);
 
 /// A name or another text as a YAML scalar that is read as this text and as nothing else, by YAML
 /// 1.1 too: in double quotes if it must be.
-std::string yamlText(const std::string& text);
+HOVERCRAFT_PUBLIC std::string yamlText(const std::string& text);
 
 /// A number, or three in a list, as the shortest YAML that reads back the same; with a point where
 /// there is an exponent, as YAML 1.1 takes 1e-06 for a text.
-std::string yamlNumber(double number);
-std::string yamlVector(const Vector3& v);
+HOVERCRAFT_PUBLIC std::string yamlNumber(double number);
+HOVERCRAFT_PUBLIC std::string yamlVector(const Vector3& v);
 
 }  // namespace hovercraft
