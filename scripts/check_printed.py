@@ -346,7 +346,7 @@ def main():
         shutil.rmtree(folder, ignore_errors=True)
     if failures:
         sys.exit(f'{failures} of what the documents print failed')
-    print(f'All of the {len(items)} commands and files that the documents print work.')
+    print(f'None of the {len(items)} commands and files that the documents print failed; those that are skipped say why.')
 
 
 if __name__ == '__main__':
