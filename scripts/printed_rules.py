@@ -1,6 +1,6 @@
 """How check_printed.py runs what the documents print. The first rule whose pattern fits a whole command holds.
 
-A command without a rule is run as it stands: it must end by itself within a minute, with exit status 0. A rule is for the others:
+A command without a rule is run as it stands: it must end by itself, with exit status 0. A rule is for the others:
 
   skip     the reason why it cannot run here: it is not run
   until    it runs for ever: a topic that is published, a command that returns when it has done enough, or words (re.compile) of its
