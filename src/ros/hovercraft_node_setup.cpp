@@ -1,7 +1,6 @@
 #include <rosgraph_msgs/Clock.h>
 #include <utility>
 
-#include <ros/single_subscriber_publisher.h>
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/hovercraft_node.h"
@@ -60,7 +59,7 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
       contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.frames.world));
     };
   }
-  transforms_ = advertiseTransforms(handle);
+  advertiseTransforms(handle);
   scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
   events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
   telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
@@ -85,23 +84,21 @@ void HovercraftNode::addVehicle(const ros::NodeHandle& handle, std::size_t vehic
 
 void HovercraftNode::addBody(const ros::NodeHandle& handle, std::size_t body) {
   ros::NodeHandle space(handle, bodies_[body].name());
-  const ros::SubscriberStatusCallback greet =
-      [this, body](const ros::SingleSubscriberPublisher& newcomer) {
-        if (!stands()) return;
-        gatherTransforms();
-        newcomer.publish(bodies_[body].pose());
-      };
-  body_poses_.push_back(space.advertise<geometry_msgs::PoseStamped>(kPoseTopic, kBodyQueue, greet));
+  const auto present = [this, body]() -> const geometry_msgs::PoseStamped* {
+    if (!stands()) return nullptr;
+    gatherTransforms();
+    return &bodies_[body].pose();
+  };
+  body_poses_.emplace_back(space, kPoseTopic, kBodyQueue, present);
 }
 
-ros::Publisher HovercraftNode::advertiseTransforms(ros::NodeHandle handle) {
-  const ros::SubscriberStatusCallback greet =
-      [this](const ros::SingleSubscriberPublisher& newcomer) {
-        if (!stands()) return;
-        gatherTransforms();
-        newcomer.publish(transforms_message_);
-      };
-  return handle.advertise<tf2_msgs::TFMessage>("/tf", kTransformQueue, greet);
+void HovercraftNode::advertiseTransforms(ros::NodeHandle handle) {
+  const auto present = [this]() -> const tf2_msgs::TFMessage* {
+    if (!stands()) return nullptr;
+    gatherTransforms();
+    return &transforms_message_;
+  };
+  transforms_ = {handle, "/tf", kTransformQueue, present};
 }
 
 void HovercraftNode::addReports(ros::NodeHandle& own) {
@@ -129,7 +126,7 @@ Claims HovercraftNode::claims() const {
     }
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    claims.topics.insert(body_poses_[i].getTopic());
+    claims.topics.insert(body_poses_[i].topic());
     claims.frames.insert(bodies_[i].transform().child_frame_id);
   }
   return claims;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -104,6 +105,7 @@ class Replayer {
         continue;
       }
       advanceTo(recorded.time);
+      applyEventsOfThisTick(recorded.state.events);  // of a run that stood, states come after them
       tellObserver(recorded.time);
       if (compares) {
         messages_[recorded.vehicle].fill(simulation_, {recorded.state.header.stamp, episode_});
@@ -183,10 +185,11 @@ class Replayer {
     }
   }
 
-  void applyEventsOfThisTick() {
+  /// @param last number of the last one that is wanted.
+  void applyEventsOfThisTick(std::uint64_t last = std::numeric_limits<std::uint64_t>::max()) {
     while (event_ < recording_.events.size()) {
       const RunEvent& event = recording_.events[event_];
-      if (beginsEpisode(event) || event.episode != episode_ ||
+      if (beginsEpisode(event) || event.episode != episode_ || event.number > last ||
           static_cast<hovercraft::Tick>(event.tick) != simulation_.tick()) {
         return;
       }

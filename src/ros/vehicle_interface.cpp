@@ -3,7 +3,6 @@
 #include <utility>
 
 #include <ros/console.h>
-#include <ros/single_subscriber_publisher.h>
 #include <ros/transport_hints.h>
 
 #include "hovercraft_sim/ros/conversions.h"
@@ -51,17 +50,16 @@ VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun&
 }
 
 template <class Message>
-ros::Publisher VehicleInterface::advertise(ros::NodeHandle& handle, const char* topic,
-                                           const Message& (VehicleMessages::*message)() const,
-                                           bool latched) {
-  const ros::SubscriberStatusCallback greet =
-      [this, message](const ros::SingleSubscriberPublisher& newcomer) {
-        if (!owner_.stands()) return;
-        refresh();
-        newcomer.publish((messages_.*message)());
-      };
-  return handle.advertise<Message>(topic, kStateQueue, greet, ros::SubscriberStatusCallback(),
-                                   ros::VoidConstPtr(), latched);
+NewcomerPublisher<Message> VehicleInterface::advertise(ros::NodeHandle& handle, const char* topic,
+                                                       const Message& (VehicleMessages::*message)()
+                                                           const,
+                                                       bool latched) {
+  const auto present = [this, message]() -> const Message* {
+    if (!owner_.stands()) return nullptr;
+    refresh();
+    return &(messages_.*message)();
+  };
+  return {handle, topic, kStateQueue, present, latched};
 }
 
 void VehicleInterface::subscribe(ros::NodeHandle& handle) {
@@ -114,8 +112,8 @@ void VehicleInterface::noteSaturation(const hovercraft::Command& command,
 }
 
 std::vector<std::string> VehicleInterface::topics() const {
-  return {pose_.getTopic(),    twist_.getTopic(), odom_.getTopic(),
-          engines_.getTopic(), state_.getTopic(), commands_.getTopic()};
+  return {pose_.topic(),    twist_.topic(), odom_.topic(),
+          engines_.topic(), state_.topic(), commands_.getTopic()};
 }
 
 void VehicleInterface::publish() {

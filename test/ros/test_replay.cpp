@@ -104,6 +104,26 @@ TEST_F(RecordedRun, IsReplayedToTheLastBit) {
   EXPECT_EQ(recording_.states.back().time.episode, 2U);
 }
 
+// Whoever comes to a run that stands is given the state as it is by then.
+TEST_F(RecordedRun, AStateThatCameAfterAnEventOfItsTickIsComparedAfterIt) {
+  hovercraft_sim::SetState::Request motion;
+  motion.vehicle = "beta";
+  motion.pose.position.x = 7.0;
+  motion.pose.orientation.w = 1.0;
+  record(setStateEvent(scenario_, motion));
+  for (std::size_t vehicle = 0; vehicle < messages_.size(); ++vehicle) {
+    messages_[vehicle].fill(run_.simulation(), run_.place());
+    recording_.states.push_back({now(), vehicle, messages_[vehicle].state()});
+  }
+  EXPECT_EQ(recording_.states.back().state.pose.position.x, 7.0);
+  motion.pose.position.x = 8.0;
+  record(setStateEvent(scenario_, motion));
+  advance(20);
+  const ReplayResult result = replay(recording_, scenario_, true);
+  EXPECT_FALSE(result.difference);
+  EXPECT_EQ(result.compared_states, recording_.states.size());
+}
+
 TEST_F(RecordedRun, OneChangedBitIsFound) {
   const std::size_t place = recording_.states.size() / 2;
   double& number = recording_.states[place].state.angular_momentum.z;

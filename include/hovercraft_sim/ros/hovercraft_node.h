@@ -21,6 +21,7 @@
 #include "hovercraft_sim/ros/graph_watch.h"
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/lockstep.h"
+#include "hovercraft_sim/ros/newcomer_publisher.h"
 #include "hovercraft_sim/ros/node_config.h"
 #include "hovercraft_sim/ros/pace_report.h"
 #include "hovercraft_sim/ros/pacer.h"
@@ -70,7 +71,7 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   void addVehicle(const ros::NodeHandle& handle, std::size_t vehicle);
   void addBody(const ros::NodeHandle& handle, std::size_t body);
   void addReports(ros::NodeHandle& own);
-  ros::Publisher advertiseTransforms(ros::NodeHandle handle);
+  void advertiseTransforms(ros::NodeHandle handle);
   Claims claims() const;
   void publishConstants();
   void setRealTimeFactor(double real_time_factor);
@@ -99,11 +100,11 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   std::optional<ClockSource> clock_;
   bool paused_;
   std::vector<std::unique_ptr<VehicleInterface>> vehicles_;
-  std::vector<BodyMessages> bodies_;        // loose ones
-  std::vector<ros::Publisher> body_poses_;  // of each
+  std::vector<BodyMessages> bodies_;                                       // loose ones
+  std::vector<NewcomerPublisher<geometry_msgs::PoseStamped>> body_poses_;  // of each
   ros::Publisher contacts_;
   ros::Publisher scenario_, events_, telemetry_;
-  ros::Publisher transforms_;
+  NewcomerPublisher<tf2_msgs::TFMessage> transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   tf2_msgs::TFMessage transforms_message_;
   std::optional<GraphWatch> graph_watch_;

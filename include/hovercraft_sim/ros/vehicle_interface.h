@@ -15,6 +15,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/live_run.h"
+#include "hovercraft_sim/ros/newcomer_publisher.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/ros/warning_limiter.h"
 #include "hovercraft_sim/sim/simulation.h"
@@ -62,8 +63,9 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
 
  private:
   template <class Message>
-  ros::Publisher advertise(ros::NodeHandle& handle, const char* topic,
-                           const Message& (VehicleMessages::*message)() const, bool latched);
+  NewcomerPublisher<Message> advertise(ros::NodeHandle& handle, const char* topic,
+                                       const Message& (VehicleMessages::*message)() const,
+                                       bool latched);
   void subscribe(ros::NodeHandle& handle);
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
   void take(const std::optional<hovercraft::Command>& command, const std::string& topic,
@@ -77,7 +79,12 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   WarningLimiter saturation_warnings_;
   std::uint64_t dropped_commands_ = 0;
   std::uint64_t saturated_commands_ = 0;
-  ros::Publisher pose_, twist_, odom_, engines_, state_, commands_;
+  NewcomerPublisher<geometry_msgs::PoseStamped> pose_;
+  NewcomerPublisher<geometry_msgs::TwistStamped> twist_;
+  NewcomerPublisher<nav_msgs::Odometry> odom_;
+  NewcomerPublisher<hovercraft_sim::EngineStatus> engines_;
+  NewcomerPublisher<hovercraft_sim::State> state_;
+  ros::Publisher commands_;
   std::vector<ros::Subscriber> subscribers_;
 };
 
