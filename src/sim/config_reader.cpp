@@ -33,11 +33,11 @@ std::string onOneLine(std::string text) {
   return text;
 }
 
-/// YAML 1.1 reads 020 as an octal number.
-bool hasLeadingZero(const std::string& number) {
+/// YAML 1.1 reads 020 as an octal number. @param number a decimal one.
+bool isOctal(const std::string& number) {
   const std::size_t first = number.find_first_not_of("+-");
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  return first + 1 < number.size() && number[first] == '0' && is_digit(number[first + 1]);
+  return first + 1 < number.size() && number[first] == '0' &&
+         number.find_first_of(".eE") == std::string::npos;
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ double ConfigReader::numberAt(const ConfigNode& node, const std::string& key,
   }
   if (!node.isPlainText()) fail(key, "must be a number, not a text in quotes");
   if (parsed.syntax == NumberSyntax::kNotFinite) fail(key, "must be finite");
-  if (hasLeadingZero(node.text())) {
+  if (isOctal(node.text())) {
     fail(key, "must be a number without leading zeros (YAML 1.1 would read it as octal)");
   }
   if (!rule.holds(parsed.value)) fail(key, rule.text);
@@ -147,7 +147,7 @@ std::int64_t ConfigReader::wholeNumberOr(std::int64_t fallback, const char* key)
   if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit) || errno == ERANGE) {
     fail(key, "must be a whole number of at most 64 bits");
   }
-  if (hasLeadingZero(digits)) fail(key, "must be a whole number without leading zeros");
+  if (isOctal(digits)) fail(key, "must be a whole number without leading zeros");
   return value;
 }
 

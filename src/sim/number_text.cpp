@@ -148,7 +148,10 @@ std::uint64_t shortest(const Scaled& number, std::uint64_t most) {
   for (std::uint64_t unit = powerOf10(kDigits - kSureDigits); unit > 1; unit /= 10) {
     const std::uint64_t down = most / unit * unit;
     const std::uint64_t up = down + unit;
-    const bool is_up_nearer = number.distance(up) < number.distance(down);
+    const UInt128 to_up = number.distance(up);
+    const UInt128 to_down = number.distance(down);
+    const bool is_down_even = down / unit % 2 == 0;
+    const bool is_up_nearer = to_up < to_down || (to_up == to_down && !is_down_even);
     const std::uint64_t nearer = is_up_nearer ? up : down;
     if (number.isReadBack(nearer)) return nearer;
     const std::uint64_t farther = is_up_nearer ? down : up;
@@ -185,25 +188,32 @@ bool isReadBack(double number, const Digits17& parts) {
   return classicStrtod(text.c_str()) == number;
 }
 
+/// A positive number rounded to so many digits.
+Digits17 rounded(double number, int digits) {
+  const std::string text = fmt::format("{:.{}e}", number, digits - 1);  // d.ddde±dd
+  const std::size_t exponent = text.find('e');
+  Digits17 parts = {0, std::atoi(text.c_str() + exponent + 1)};
+  for (const char c : text.substr(0, exponent)) {
+    if (isDigit(c)) parts.digits = 10 * parts.digits + static_cast<std::uint64_t>(c - '0');
+  }
+  parts.digits *= powerOf10(kDigits - digits);
+  return parts;
+}
+
 /// The same by trial, for any positive number.
 Digits17 shortestDigitsByTrial(double number) {
-  const std::string text = fmt::format("{:.16e}", number);  // d.dddddddddddddddde±dd
-  Digits17 all = {0, std::atoi(text.c_str() + text.find('e') + 1)};
-  for (const char c : text.substr(0, text.find('e'))) {
-    if (isDigit(c)) all.digits = 10 * all.digits + static_cast<std::uint64_t>(c - '0');
-  }
   // Denormal numbers have fewer digits than others.
   const bool is_normal = number >= std::numeric_limits<double>::min();
+  int exponent = 0;
+  const bool is_power_of_2 = std::frexp(number, &exponent) == 0.5;
   for (int digits = is_normal ? kSureDigits : 1; digits < kDigits; ++digits) {
-    const std::uint64_t unit = powerOf10(kDigits - digits);
-    const Digits17 down = {all.digits / unit * unit, all.exponent};
-    const Digits17 up = {down.digits + unit, all.exponent};
-    const bool is_up_nearer = up.digits - all.digits < all.digits - down.digits;
-    for (const Digits17& candidate : {is_up_nearer ? up : down, is_up_nearer ? down : up}) {
-      if (isReadBack(number, candidate)) return candidate;
-    }
+    Digits17 candidate = rounded(number, digits);
+    if (isReadBack(number, candidate)) return candidate;
+    // More is read as a power of two from above than from below.
+    candidate.digits += powerOf10(kDigits - digits);
+    if (is_power_of_2 && isReadBack(number, candidate)) return candidate;
   }
-  return all;
+  return rounded(number, kDigits);
 }
 
 void appendFraction(fmt::memory_buffer& buffer, const char* begin, const char* end) {

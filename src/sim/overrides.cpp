@@ -46,8 +46,13 @@ class Nesting {
   /// @returns true if the character stands by itself: neither in quotes nor in brackets.
   bool isFree(char c) {
     const char before = std::exchange(before_, std::isspace(asByte(c)) != 0 ? before_ : c);
+    const char closed = std::exchange(closed_, '\0');
     if (quote_ != 0) {
       passQuoted(c);
+      return false;
+    }
+    if (c == '\'' && closed == c) {  // twice: a quote within the text
+      quote_ = c;
       return false;
     }
     // A quote within a word, as in o'clock, is a letter.
@@ -69,12 +74,13 @@ class Nesting {
     } else if (c == '\\' && quote_ == '"') {
       is_escaped_ = true;
     } else if (c == quote_) {
-      quote_ = 0;
+      closed_ = std::exchange(quote_, '\0');
     }
   }
 
   char before_ = ';';  // the last character that is no white space: what comes first begins a text
   char quote_ = 0;
+  char closed_ = 0;  // the quote that ended just now
   bool is_escaped_ = false;
   int depth_ = 0;
 };

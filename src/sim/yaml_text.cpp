@@ -35,6 +35,7 @@ constexpr std::size_t kLongestRule = 400;  // bytes of a message behind its sour
 /// What there is of one map or list while it is read.
 struct Open {
   bool is_map = false;
+  std::optional<YAML::Mark> key_mark;  // it stands where a key belongs
   YAML::anchor_t anchor = 0;
   ConfigNode::List items;
   ConfigNode::Map members;
@@ -114,9 +115,10 @@ class TreeBuilder : public YAML::EventHandler {
 
   void open(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor, bool is_map) {
     checkTag(mark, tag);
-    if (awaitsKey()) failAt(mark, "a key must be a text");
     if (open_.size() == kDeepestYaml) failDeep();
     Open level;
+    // Refused when it is whole: what is never closed is no YAML.
+    if (awaitsKey()) level.key_mark = mark;
     level.is_map = is_map;
     level.anchor = anchor;
     open_.push_back(std::move(level));
@@ -125,6 +127,7 @@ class TreeBuilder : public YAML::EventHandler {
   void close() {
     Open level = std::move(open_.back());
     open_.pop_back();
+    if (level.key_mark) failAt(*level.key_mark, "a key must be a text");
     for (const ConfigNode& map : level.merged) {
       count(map.members().size());
       for (const auto& member : map.members()) {
@@ -210,11 +213,10 @@ bool isIndentedByTab(const std::string& text, std::size_t begin) {
   return indented < end && !is_blank;
 }
 
-/// The lines as yaml-cpp reads them: LF at each end. Ends in the mark of a document's end, as
-/// yaml-cpp 0.6 looks beyond the last token for what a lone tag or anchor belongs to.
+/// The lines with LF at each end.
 std::string linesOf(const std::string& text, const std::string& source) {
   std::string lines;
-  lines.reserve(text.size() + 8);
+  lines.reserve(text.size());
   std::size_t number = 1;
   for (const char c : text) {
     if (!lines.empty() && lines.back() == '\r') {
@@ -232,12 +234,24 @@ std::string linesOf(const std::string& text, const std::string& source) {
     }
     begin = std::min(lines.find('\n', begin), lines.size() - 1) + 1;
   }
-  const std::size_t last = lines.find_last_not_of(" \n");
-  const std::string end_mark = "\n...";
-  const bool has_end =
-      last != std::string::npos && last >= 3 && lines.compare(last - 3, 4, end_mark) == 0;
-  if (!has_end) lines += end_mark;
-  return lines + "\n";
+  return lines;
+}
+
+/// yaml-cpp 0.6 looks beyond the last token for what a tag or an anchor belongs to: a text that may
+/// end in one gets the mark of a document's end.
+std::string guarded(const std::string& lines) {
+  std::size_t end = lines.size();
+  while (end > 0) {
+    const std::size_t break_before = lines.rfind('\n', end - 1);
+    const std::size_t begin = break_before == std::string::npos ? 0 : break_before + 1;
+    const std::string line = lines.substr(begin, end - begin);
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != std::string::npos && line[first] != '#') {
+      return line.find_first_of("!&") == std::string::npos ? lines : lines + "\n...\n";
+    }
+    end = begin == 0 ? 0 : begin - 1;
+  }
+  return lines;
 }
 
 }  // namespace
@@ -249,7 +263,7 @@ ConfigNode treeOf(const std::string& text, const std::string& source) {
   if (const auto fault = faultOfText(text)) {
     fail(source, fmt::format("line {}: {}", fault->line, fault->rule));
   }
-  std::istringstream stream(linesOf(withoutByteOrderMark(text), source));
+  std::istringstream stream(guarded(linesOf(withoutByteOrderMark(text), source)));
   TreeBuilder builder(source);
   try {
     YAML::Parser parser(stream);

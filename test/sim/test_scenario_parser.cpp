@@ -258,7 +258,7 @@ TEST(ScenarioFile, OfSeveralDocumentsIsRefused) {
   const std::string file =
       folder.write("scenario.yaml", validScenario() + "---\n" + validScenario());
   EXPECT_EQ(messageOf([&] { loadScenario(file); }),
-            file + ": line 17: must be one YAML document, and here a second one begins");
+            file + ": line 19: must be one YAML document, and here a second one begins");
 }
 
 TEST(ScenarioFile, ThoseThatAreShippedParse) {

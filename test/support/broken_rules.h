@@ -80,9 +80,9 @@ inline const std::vector<BrokenRule> kBrokenNumbers = {
     {"Octal", "mass: 5.5", "mass: 020",
      "vehicles.alpha.mass = 020: must be a number without leading zeros (YAML 1.1 would read it as "
      "octal)"},
-    {"LeadingZeroOfAFraction", "mass: 5.5", "mass: -05.5",
-     "vehicles.alpha.mass = -05.5: must be a number without leading zeros (YAML 1.1 would read it "
-     "as octal)"},
+    {"NoOctalDigit", "mass: 5.5", "mass: -08",
+     "vehicles.alpha.mass = -08: must be a number without leading zeros (YAML 1.1 would read it as "
+     "octal)"},
     {"Thousands", "mass: 5.5", "mass: 1_000",
      "vehicles.alpha.mass = 1_000: must be a number in decimal digits"},
     {"Sexagesimal", "mass: 5.5", "mass: 1:30",
