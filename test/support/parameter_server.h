@@ -27,7 +27,7 @@ inline XmlRpc::XmlRpcValue loadedByRosparam(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   if (text == "true" || text == "false") return XmlRpc::XmlRpcValue(text == "true");
   if (text.find_first_not_of("+-0123456789") == std::string::npos) {
-    return XmlRpc::XmlRpcValue(std::atoi(text.c_str()));
+    return XmlRpc::XmlRpcValue(std::stoi(text));
   }
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
