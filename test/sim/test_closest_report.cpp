@@ -107,6 +107,20 @@ TEST(ClosestReport, CrossedEdgesAreNamedByTheirEnds) {
   expectFeature(answer["feature_b"], "edge", {0, 3});
 }
 
+// Where the hull leaves out vertices (those of the notch, (1, 1, 0) and (1, 1, 0.5)), the numbers
+// are still those of the mesh: its faces begin with 6 5 4 3 2 1 and 7 8 9, so that vertex 9 of the
+// file, (3, 1, 0.5), has the number 8.
+TEST(ClosestReport, VerticesOfAHullKeepTheNumbersOfTheMesh) {
+  ClosestRequest request = cubes();
+  request.mesh_a = "test/data/l_shape.obj";
+  request.hull = true;
+  request.pose_b = {4, 3, 2, 0, 0, 0, 1};
+  const YAML::Node answer = YAML::Load(closestReport(request));
+  expectNear(answer["point_a"], {3.0, 1.0, 0.5});
+  expectFeature(answer["feature_a"], "vertex", {8});
+  expectFeature(answer["feature_b"], "vertex", {0});
+}
+
 TEST(ClosestReport, TheTextSaysTheSameAsTheJson) {
   ClosestRequest request = cubes();
   request.pose_b = {2, 1.5, 1.5, 0, 0, 0, 1};
