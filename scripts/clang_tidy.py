@@ -13,6 +13,7 @@ usage: clang_tidy.py BUILD_FOLDER   (exit status 1 if there is a finding; run in
 
 import collections
 import concurrent.futures
+import functools
 import hashlib
 import json
 import os
@@ -23,12 +24,14 @@ import shlex
 import subprocess
 import sys
 import tempfile
+import time
 
 CLANG_TIDY = 'clang-tidy-22'
 ROOT = pathlib.Path.cwd()
 FOLDERS = ('src', 'test', 'bench', 'examples')
 WITHOUT_ANALYZER = '-clang-analyzer-*'
 SOURCES_OF_A_BATCH = 8
+KEPT_DAYS = 30  # a result that nobody asked for so long is thrown away
 # The analyzer gives up on a function after that many states: a third of the default, as in its shallow mode. Functions that take more
 # than that are few (calls of roscpp and rosbag), and give up at the default too, three times as late.
 ANALYZER = [f'--extra-arg={argument}' for argument in ('-Xclang', '-analyzer-config', '-Xclang', 'max-nodes=75000')]
@@ -42,6 +45,12 @@ USING = re.compile(r'^using ([\w:]+);', re.MULTILINE)
 Source = collections.namedtuple('Source', 'path arguments key')
 
 
+@functools.lru_cache(maxsize=None)
+def text_of(path):
+    return path.read_text()
+
+
+@functools.lru_cache(maxsize=None)
 def project_files(source):
     """The source and every header of the project that it includes, directly or not, in a fixed order."""
     found, waiting = set(), [source]
@@ -50,7 +59,7 @@ def project_files(source):
         if path in found:
             continue
         found.add(path)
-        for name in INCLUDE.findall(path.read_text()):
+        for name in INCLUDE.findall(text_of(path)):
             candidates = (ROOT / 'include' / name, path.parent / name, ROOT / name)
             waiting += [candidate.resolve() for candidate in candidates if candidate.is_file()]
     return sorted(found)
@@ -85,7 +94,7 @@ def key_of(path, arguments, version):
     digest.update('\0'.join(arguments).replace(str(ROOT), '.').encode())
     files = project_files(path)
     digest_of_files(digest, settings_of(path.relative_to(ROOT).parts[0]) + files)
-    if any(INCLUDED_MESSAGE.search(file.read_text()) for file in files):
+    if any(INCLUDED_MESSAGE.search(text_of(file)) for file in files):
         digest_of_files(digest, sorted(file for folder in ('msg', 'srv', 'cfg') for file in (ROOT / folder).iterdir()))
     return digest.hexdigest()
 
@@ -99,12 +108,16 @@ class Memory:
         self.folder.mkdir(parents=True, exist_ok=True)
         lines = subprocess.run(['dpkg-query', '-W', '-f=${binary:Package}\t${Version}\n'], stdout=subprocess.PIPE, check=True,
                                universal_newlines=True).stdout
+        for old in self.folder.iterdir():
+            if time.time() - old.stat().st_mtime > KEPT_DAYS * 86400:
+                old.unlink()
         self.versions = dict(line.split('\t') for line in lines.splitlines())
         self.owners = {}
 
     def is_clean(self, source):
         try:
             record = json.loads((self.folder / source.key).read_text())
+            os.utime(self.folder / source.key)  # it was of use: it is kept
         except (OSError, ValueError):
             return False
         return (all(self.versions.get(package) == version for package, version in record['packages'].items()) and
@@ -165,13 +178,13 @@ class Batch:
     def weight(self):
         """Grows with the time it takes: what is read of the project, twice as much where ROS is read too."""
         files = set().union(*(project_files(source.path) for source in self.sources))
-        text = ''.join(path.read_text() for path in files)
+        text = ''.join(text_of(path) for path in files)
         return len(text) * (2 if '<ros' in text else 1)
 
 
 def names_declared_in(source):
     """Each name with what it means: a name that is only taken from elsewhere may be taken twice."""
-    text = source.path.read_text()
+    text = text_of(source.path)
     names = {name: source.path for match in DECLARED.findall(text) for name in match if name}
     names.update((meaning.split('::')[-1], meaning) for meaning in USING.findall(text))
     return names
@@ -179,7 +192,7 @@ def names_declared_in(source):
 
 def may_be_in_a_batch(source):
     """Not what the analyzer sees; and a name that is taken in vain would be excused by another source that uses it."""
-    code = re.sub(r'//.*|#\s*include.*', '', source.path.read_text())
+    code = re.sub(r'//.*|#\s*include.*', '', text_of(source.path))
     return without_analyzer(source) and all(len(re.findall(rf'\b{meaning.split("::")[-1]}\b', code)) > 1
                                             for meaning in USING.findall(code))
 
@@ -236,7 +249,7 @@ def look_at_one_file(folder, build, sources):
     generated, text, places = home / 'batch.cpp', '', []
     for source in sources:
         places.append((text.count('\n') + 1, source.path))
-        text += source.path.read_text().rstrip('\n') + '\n'
+        text += text_of(source.path).rstrip('\n') + '\n'
     generated.write_text(text)
     command = ['c++', *sources[0].arguments, '-iquote', str(sources[0].path.parent), '-c', str(generated)]
     entry = {'directory': str(build), 'file': str(generated), 'arguments': command}

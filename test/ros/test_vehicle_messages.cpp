@@ -143,14 +143,16 @@ TEST(VehicleMessages, AnAppliedCommandCarriesStampFrameEpisodeAndNumber) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
   const hovercraft::Command command = {
-      25, 0, hovercraft::maskOf(hovercraft::EngineId::kLeft), {0, 1, 0}};
+      25, 0, hovercraft::maskOf(hovercraft::EngineId::kLeft), {0.5, 1.0, 0.25}};
   const hovercraft_sim::AppliedCommand message = messages.appliedCommand(command, {kStampOfAll, 4});
   EXPECT_EQ(message.header.stamp, kStampOfAll);
   EXPECT_EQ(message.header.frame_id, "alpha/base_link");
   EXPECT_EQ(message.episode, 4U);
   EXPECT_EQ(message.tick, 25U);
   EXPECT_EQ(message.engines, hovercraft_sim::AppliedCommand::LEFT);
+  EXPECT_EQ(message.rear, 0.5);  // as it was sent, whatever the mask
   EXPECT_EQ(message.left, 1.0);
+  EXPECT_EQ(message.right, 0.25);
   EXPECT_EQ(message.number, 1U);
   EXPECT_EQ(messages.appliedCommand(command, {kStampOfAll, 4}).number, 2U);
   messages.fill(simulation, {kStampOfAll, 4});
