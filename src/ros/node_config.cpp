@@ -10,6 +10,7 @@
 
 #include <ros/package.h>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -163,6 +164,7 @@ bool isRealTimeFactor(double factor) {
 }
 
 NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name) {
+  const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::ConfigReader reader(parameters, node_name);
   reader.allowOnly({"scenario", "scenario_dir", "scenario_file", "set", "publish_rate",
                     "world_frame", "tf_prefix", "real_time_factor", "paused", "clock", "clock_rate",

@@ -9,6 +9,7 @@
 #include <locale.h>
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/time.h"
 
 namespace hovercraft {
@@ -255,6 +256,7 @@ bool isNotFiniteWord(std::string word) {
 }  // namespace
 
 ParsedNumber parseNumber(const std::string& text) {
+  const FloatingPointEnvironment environment;
   if (!DecimalScanner(text).scan()) {
     return {isNotFiniteWord(text) ? NumberSyntax::kNotFinite : NumberSyntax::kNoNumber, 0.0};
   }
@@ -279,6 +281,7 @@ std::int64_t parseNanoseconds(const std::string& text) {
 }
 
 void appendNumber(fmt::memory_buffer& buffer, double number) {
+  const FloatingPointEnvironment environment;
   if (!std::isfinite(number)) {
     fmt::format_to(std::back_inserter(buffer), "{}", number);
     return;

@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
@@ -91,6 +92,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
 }  // namespace
 
 std::string toYaml(const Scenario& scenario) {
+  const FloatingPointEnvironment environment;
   std::string yaml = fmt::format(
       "step_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\ngravity: {}\nwind: {}\n"
       "seed: {}\nvehicles:\n",
