@@ -10,6 +10,7 @@
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/body_messages.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/output_file.h"
@@ -20,7 +21,7 @@ namespace hovercraft_ros {
 /// Writes a run into a bag with the topics of the node (design: ROS interface), stamped and
 /// received at n·h. ROS takes time 0 for no time: the state of tick 0 is left out, and what takes
 /// effect then (commands, static transforms, the scenario) is recorded at tick 1.
-class BagWriter : public hovercraft::StateSink {
+class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
   BagWriter(const std::string& path, const hovercraft::Scenario& scenario);

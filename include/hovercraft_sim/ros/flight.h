@@ -12,6 +12,7 @@
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/trajectory.h"
@@ -25,7 +26,7 @@ namespace hovercraft_ros {
 /// In lockstep the result does not depend on the load of the machine: commands that fall on ends of
 /// control periods, but for tick 0, act at the ticks at which `simulate` applies them, and the
 /// states have the same bits.
-class Flight {
+class HOVERCRAFT_PUBLIC Flight {
  public:
   /// Waits for the simulation and takes it back to its start, where it stays paused.
   /// @param node name of the simulation's node; the craft lie in the same namespace.
@@ -88,7 +89,8 @@ struct FlightVerdict {
 /// reference from the flight's first state on, interpolating where the flight has no state of that
 /// time. A flight that ends before its reference does not follow it.
 /// @throws std::invalid_argument about the reference.
-FlightVerdict judge(const std::vector<hovercraft::Trajectory>& flown, const std::string& reference,
-                    const FlightTolerance& tolerance);
+HOVERCRAFT_PUBLIC FlightVerdict judge(const std::vector<hovercraft::Trajectory>& flown,
+                                      const std::string& reference,
+                                      const FlightTolerance& tolerance);
 
 }  // namespace hovercraft_ros

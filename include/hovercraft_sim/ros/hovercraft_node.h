@@ -14,6 +14,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/body_messages.h"
 #include "hovercraft_sim/ros/clock_source.h"
 #include "hovercraft_sim/ros/live_run.h"
@@ -30,7 +31,7 @@ namespace hovercraft_ros {
 /// the world; between steps it waits on the callback queue, so that a message or a service is
 /// handled at once, also while the simulation is paused. It wakes for the ticks that something is
 /// published at, and makes the steps before them together.
-class HovercraftNode {
+class HOVERCRAFT_PUBLIC HovercraftNode {
  public:
   /// @param handle of the namespace that the craft's namespaces lie in. @param private_handle the
   /// node's own.

@@ -14,6 +14,7 @@
 #include <ros/wall_timer.h>
 #include <std_msgs/String.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/flown_path.h"
 #include "hovercraft_sim/sim/scenario.h"
 
@@ -22,7 +23,7 @@ namespace hovercraft_ros {
 /// Draws every craft of a running or replayed simulation: listens to the latched scenario, then to
 /// pose, engines and state of each craft, and publishes one MarkerArray for all of them. A bag
 /// without states is drawn as well. The simulation knows nothing of it.
-class MarkersNode {
+class HOVERCRAFT_PUBLIC MarkersNode {
  public:
   MarkersNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 

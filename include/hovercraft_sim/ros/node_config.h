@@ -3,6 +3,7 @@
 #include <string>
 #include <yaml-cpp/yaml.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sim/scenario.h"
 
@@ -34,8 +35,8 @@ struct NodeConfig {
 };
 
 /// A real-time factor that a run can have: 0, or kMinRealTimeFactor to kMaxRealTimeFactor.
-bool isRealTimeFactor(double factor);
-extern const char* const kRealTimeFactorRuleText;
+HOVERCRAFT_PUBLIC bool isRealTimeFactor(double factor);
+extern HOVERCRAFT_PUBLIC const char* const kRealTimeFactorRuleText;
 
 /// @param parameters the node's private namespace as a tree: `scenario` (design: scenario file),
 /// `publish_rate` in Hz (a divisor of the step rate; default the nearest to 100),
@@ -43,6 +44,7 @@ extern const char* const kRealTimeFactorRuleText;
 /// `lockstep`), and what the other members of NodeConfig are called.
 /// @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
-NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name);
+HOVERCRAFT_PUBLIC NodeConfig parseNodeConfig(const YAML::Node& parameters,
+                                             const std::string& node_name);
 
 }  // namespace hovercraft_ros

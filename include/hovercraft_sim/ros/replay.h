@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/recording_reader.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -44,8 +45,9 @@ struct ReplayObserver {
 /// been; a snapshot that was loaded then gives it the motion, not the momenta.
 /// @throws std::invalid_argument that names the recording and the event if one does not fit the
 /// scenario.
-ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scenario, bool compares,
-                    const ReplayObserver& observer = {});
+HOVERCRAFT_PUBLIC ReplayResult replay(const Recording& recording,
+                                      const hovercraft::Scenario& scenario, bool compares,
+                                      const ReplayObserver& observer = {});
 
 /// What the tool `replay` was asked for.
 struct ReplayRequest {
@@ -58,6 +60,6 @@ struct ReplayRequest {
 /// @returns 0 identical, or the scenario was changed and there is nothing to compare; 1 different;
 /// 2 not all can be checked.
 /// @throws std::invalid_argument for whatever in the request or the bag is bad.
-int replayBag(const ReplayRequest& request, std::string& verdict);
+HOVERCRAFT_PUBLIC int replayBag(const ReplayRequest& request, std::string& verdict);
 
 }  // namespace hovercraft_ros

@@ -4,6 +4,7 @@
 #include <ostream>
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/run.h"
 #include "hovercraft_sim/sim/scenario.h"
@@ -11,18 +12,18 @@
 namespace hovercraft_ros {
 
 /// A scenario file; package:// paths in it are found by rospack.
-hovercraft::Scenario loadScenarioFile(const std::string& path);
+HOVERCRAFT_PUBLIC hovercraft::Scenario loadScenarioFile(const std::string& path);
 
 /// Commands from a CSV file or a bag, whichever the file is.
 /// @throws std::invalid_argument, see CsvCommandSource and BagCommandSource.
-std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
-                                                        const hovercraft::Scenario& scenario);
+HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::CommandSource> openCommands(
+    const std::string& path, const hovercraft::Scenario& scenario);
 
 /// A bag if the name ends in .bag; CSV if it ends in .csv, is `-` (the standard output) or a
 /// device.
 /// @throws std::invalid_argument if it is neither, or cannot be opened for writing.
-std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
-                                                  const hovercraft::Scenario& scenario);
+HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::StateSink> openOutput(
+    const std::string& path, const hovercraft::Scenario& scenario);
 
 /// What the tool `simulate` was asked for.
 struct SimulateRequest {
@@ -41,6 +42,7 @@ constexpr std::int64_t kAfterLastCommandNs = 1000000000;
 /// how long it took and the hash of the last state.
 /// @throws std::invalid_argument for whatever in the request or its files is bad, and if the output
 /// cannot be written.
-hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages);
+HOVERCRAFT_PUBLIC hovercraft::RunSummary simulate(const SimulateRequest& request,
+                                                  std::ostream& messages);
 
 }  // namespace hovercraft_ros

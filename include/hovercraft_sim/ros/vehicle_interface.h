@@ -13,6 +13,7 @@
 #include <ros/subscriber.h>
 #include <std_msgs/Float64.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/ros/warning_limiter.h"
@@ -21,7 +22,7 @@
 namespace hovercraft_ros {
 
 /// The topics of one craft: thrusts in, messages out. A bad thrust is dropped whole and counted.
-class VehicleInterface {
+class HOVERCRAFT_PUBLIC VehicleInterface {
  public:
   /// Receives a command, whose tick the receiver sets, and the stamp of its header if it has one;
   /// returns null, or why it was not taken. Called from the node's callback queue only.

@@ -13,6 +13,7 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros {
@@ -28,7 +29,7 @@ constexpr const char* kCommandsTopic = "commands";
 constexpr const char* kDefaultWorldFrame = "world";
 
 /// Simulated time as ROS time: epoch + n·h, from whole nanoseconds.
-ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
+HOVERCRAFT_PUBLIC ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
 
 /// Where a run stands in ROS time.
 struct RunStamp {
@@ -39,7 +40,7 @@ struct RunStamp {
 
 /// Every message about one craft at one tick; the node publishes them, a bag writer writes them.
 /// The messages are kept and filled again, so that their strings are made once.
-class VehicleMessages {
+class HOVERCRAFT_PUBLIC VehicleMessages {
  public:
   /// @param vehicle index into the scenario's vehicles.
   VehicleMessages(const hovercraft::Scenario& scenario, std::size_t vehicle,

@@ -7,6 +7,7 @@
 #include <vector>
 #include <yaml-cpp/yaml.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -16,14 +17,14 @@ struct NumberRule {
   bool (*holds)(double);
   const char* text;
 };
-extern const NumberRule kAnyNumber;
-extern const NumberRule kPositive;
-extern const NumberRule kNotNegative;
-extern const NumberRule kNotPositive;
+extern HOVERCRAFT_PUBLIC const NumberRule kAnyNumber;
+extern HOVERCRAFT_PUBLIC const NumberRule kPositive;
+extern HOVERCRAFT_PUBLIC const NumberRule kNotNegative;
+extern HOVERCRAFT_PUBLIC const NumberRule kNotPositive;
 
 /// One map of a YAML tree, with the path by which the user knows it. Every reading function throws
 /// std::invalid_argument with one line: source, key path, value, rule.
-class ConfigReader {
+class HOVERCRAFT_PUBLIC ConfigReader {
  public:
   /// @param source name of the file or parameter that the tree came from.
   /// @param path key path of `node` within the source; empty at the top.

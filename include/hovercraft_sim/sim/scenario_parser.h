@@ -4,6 +4,7 @@
 #include <string>
 #include <yaml-cpp/yaml.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft {
@@ -21,22 +22,22 @@ struct ScenarioSource {
 /// Parses and checks a whole scenario (design: one schema, one parser, for files and for the
 /// parameter server).
 /// @throws std::invalid_argument with one line that names source, key path, value and rule.
-Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source);
+HOVERCRAFT_PUBLIC Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source);
 
 /// The tree of a text.
 /// @param source what the text is, for the message.
 /// @throws std::invalid_argument with the source if it is not YAML.
-YAML::Node treeOf(const std::string& text, const std::string& source);
+HOVERCRAFT_PUBLIC YAML::Node treeOf(const std::string& text, const std::string& source);
 
 /// Reads the file and parses it; relative mesh paths start from its folder.
 /// @param package_folder see ScenarioSource.
 /// @throws std::invalid_argument also if the file cannot be read or is not YAML.
-Scenario loadScenario(const std::string& path,
-                      std::function<std::string(const std::string&)> package_folder = {});
+HOVERCRAFT_PUBLIC Scenario loadScenario(
+    const std::string& path, std::function<std::string(const std::string&)> package_folder = {});
 
 /// The scenario with every default written out, 17 digits, keys in a fixed order: parsing it gives
 /// the same scenario to the last bit. A craft with a mesh among its parts is written with its mass,
 /// centre of mass and inertia instead, so that the text needs no other file.
-std::string toYaml(const Scenario& scenario);
+HOVERCRAFT_PUBLIC std::string toYaml(const Scenario& scenario);
 
 }  // namespace hovercraft

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/body/body_state.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
@@ -81,7 +82,7 @@ struct EngineReport {
 /// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
 /// allocation in step(); the same scenario and the same commands at the same ticks give the same
 /// bits.
-class Simulation {
+class HOVERCRAFT_PUBLIC Simulation {
  public:
   explicit Simulation(Scenario scenario);
 
