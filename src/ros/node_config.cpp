@@ -7,6 +7,7 @@
 
 #include <ros/package.h>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
@@ -86,6 +87,7 @@ bool isRealTimeFactor(double factor) {
 }
 
 NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name) {
+  const hovercraft::FloatingPointEnvironment environment;
   if (!parameters.IsMap() || !parameters["scenario"].IsDefined()) {
     throw std::invalid_argument(
         node_name +

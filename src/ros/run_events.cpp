@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/sim/command_source.h"
@@ -60,6 +61,7 @@ RunEvent loadEvent(const std::string& snapshot) {
 
 RunEvent setStateEvent(const hovercraft::Scenario& scenario,
                        const hovercraft_sim::SetState::Request& request) {
+  const hovercraft::FloatingPointEnvironment environment;
   const std::size_t vehicle = vehicleIndex(scenario, request.vehicle);
   const Vector3 p_WH = fromMessage(request.pose.position);
   const hovercraft::Quaternion q_WH = fromMessage(request.pose.orientation);
@@ -144,6 +146,7 @@ void load(const RunEvent& event, hovercraft::Simulation& simulation) {
 }  // namespace
 
 void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
+  const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::Scenario& scenario = simulation.scenario();
   switch (event.kind) {
     case RunEvent::RESET:

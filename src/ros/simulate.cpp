@@ -9,6 +9,7 @@
 
 #include <ros/package.h>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/ros/bag_file.h"
 #include "hovercraft_sim/ros/bag_writer.h"
@@ -31,6 +32,7 @@ namespace fs = std::filesystem;
 namespace {
 
 Tick ticksOfDuration(const std::string& text, const Scenario& scenario) {
+  const hovercraft::FloatingPointEnvironment environment;
   const auto fail = [&](const std::string& rule) {
     throw std::invalid_argument(fmt::format("--duration = {}: {}", text, rule));
   };

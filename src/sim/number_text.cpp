@@ -8,6 +8,7 @@
 #include <locale.h>
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/time.h"
 
 namespace hovercraft {
@@ -150,6 +151,7 @@ bool isNotFiniteWord(std::string word) {
 }  // namespace
 
 ParsedNumber parseNumber(const std::string& text) {
+  const FloatingPointEnvironment environment;
   if (!DecimalScanner(text).scan()) {
     return {isNotFiniteWord(text) ? NumberSyntax::kNotFinite : NumberSyntax::kNoNumber, 0.0};
   }
@@ -175,6 +177,7 @@ std::int64_t parseNanoseconds(const std::string& text) {
 }
 
 void appendNumber(fmt::memory_buffer& buffer, double number) {
+  const FloatingPointEnvironment environment;
   if (std::signbit(number)) buffer.push_back('-');
   const double magnitude = std::abs(number);
   if (magnitude == 0.0) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
@@ -251,6 +252,7 @@ VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader
 }  // namespace
 
 Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
+  const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
   reader.allowOnly({"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed",
                     "vehicles", "world"});

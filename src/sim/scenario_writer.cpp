@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/world_parser.h"
@@ -93,6 +94,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
 }  // namespace
 
 std::string toYaml(const Scenario& scenario) {
+  const FloatingPointEnvironment environment;
   std::string yaml = fmt::format(
       "step_size: {:.17g}\nintegrator: {}\norientation: {}\nmodel: {}\ngravity: {}\nwind: {}\n"
       "seed: {}\nvehicles:\n",

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -186,6 +187,7 @@ ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario)
 }  // namespace
 
 std::string toSnapshot(const Simulation& simulation) {
+  const FloatingPointEnvironment environment;
   const Scenario& scenario = simulation.scenario();
   const SimulationState& state = simulation.state();
   std::string yaml = fmt::format("tick: {}\nseed: {}\nhash: '{:016x}'\nvehicles:\n", state.tick,
@@ -212,6 +214,7 @@ std::string toSnapshot(const Simulation& simulation) {
 
 SimulationState parseSnapshot(const std::string& text, const std::string& source,
                               const Scenario& scenario) {
+  const FloatingPointEnvironment environment;
   const YAML::Node tree = treeOf(text, source);
   const ConfigReader reader(tree, source);
   reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",

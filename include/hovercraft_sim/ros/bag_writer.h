@@ -45,9 +45,10 @@ class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
   ros::Time stampOfTick(hovercraft::Tick tick) const;
   std::string topic(const VehicleMessages& messages, const char* name) const;
   void writeConstants(const hovercraft::Scenario& scenario);
+  // Hidden: instances of a template stay in the library (export.h).
   template <class Message>
-  void write(const std::string& topic, const ros::Time& stamp, const Message& message,
-             bool latched = false);
+  [[gnu::visibility("hidden")]] void write(const std::string& topic, const ros::Time& stamp,
+                                           const Message& message, bool latched = false);
 
   hovercraft::PartialFile file_;
   std::unique_ptr<rosbag::Bag, BagDeleter> bag_;

@@ -81,7 +81,8 @@ struct EngineReport {
 
 /// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
 /// allocation in step(); the same scenario and the same commands at the same ticks give the same
-/// bits.
+/// bits, whatever the program was compiled with and whatever the floating-point environment of its
+/// thread is (FloatingPointEnvironment). Callbacks run in the thread's own.
 class HOVERCRAFT_PUBLIC Simulation {
  public:
   explicit Simulation(Scenario scenario);
@@ -156,13 +157,14 @@ class HOVERCRAFT_PUBLIC Simulation {
   [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
   void stepWorld();
-  void report();
+  void sortRecords();
+  ContactEvent eventOf(const ContactRecord& record) const;
   BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
                    const Mobility& mobility) const;
   void partTouching(int body);
 
   Scenario scenario_;
-  double h_;  // s
+  double h_ = 0.0;  // s
   std::vector<HovercraftModel> models_;
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;
