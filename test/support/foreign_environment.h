@@ -60,11 +60,14 @@ class InForeignEnvironment {
     std::fegetenv(&environment_);
     switch (foreign) {
       case Foreign::kFlushToZero:
-        return set(kFlush);
+        set(kFlush);
+        return;
       case Foreign::kDenormalsAreZero:
-        return set(kDenormals);
+        set(kDenormals);
+        return;
       case Foreign::kFastMath:
-        return set(kFlush | kDenormals);
+        set(kFlush | kDenormals);
+        return;
       case Foreign::kUpward:
         std::fesetround(FE_UPWARD);
         return;
@@ -78,7 +81,8 @@ class InForeignEnvironment {
         feenableexcept(FE_ALL_EXCEPT);
         return;
       case Foreign::kShortMantissas:
-        return setShortMantissas();
+        setShortMantissas();
+        return;
     }
   }
   ~InForeignEnvironment() {

@@ -99,7 +99,8 @@ inline void expectSameBits(const std::string& name, const std::function<Bits()>&
       after = controlRegisters();
     }
     EXPECT_EQ(found, expected) << name << ": " << nameOf(foreign);
-    EXPECT_TRUE(after == before) << name << ": " << nameOf(foreign);
+    EXPECT_TRUE(after == before) << name << ": " << nameOf(foreign) << std::hex << ": "
+                                 << before.main << " became " << after.main;
   }
 }
 
