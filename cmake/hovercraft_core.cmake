@@ -1,6 +1,8 @@
 # The ROS-free core: what it needs, how it is compiled, and the target hovercraft_core. The package includes this, and so
 # does test/determinism, which builds the core without ROS; both find Eigen and Boost before.
 
+include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
+
 option(HOVERCRAFT_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 option(HOVERCRAFT_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
 
@@ -37,10 +39,10 @@ include_directories(SYSTEM ${EIGEN3_INCLUDE_DIRS} ${qhull_include_dir})
 
 # Every module up to sim.
 get_filename_component(hovercraft_root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
-set(core_sources)
+add_library(hovercraft_core "")
 foreach(module math geometry body hovercraft collision contact world sim)
   file(GLOB module_sources CONFIGURE_DEPENDS ${hovercraft_root}/src/${module}/*.cpp)
-  list(APPEND core_sources ${module_sources})
+  target_sources(hovercraft_core PRIVATE ${module_sources})
+  hovercraft_unity(hovercraft_core ${module} ${module_sources})
 endforeach()
-add_library(hovercraft_core ${core_sources})
 target_link_libraries(hovercraft_core ${yaml_cpp_target} fmt::fmt PkgConfig::assimp ${qhull_library})

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034
 # Shared by the scripts in this folder; sourced, never run. It moves to the root of the checkout, takes an
-# environment in which ROS 1 works, and offers: install_packages PURPOSE..., enter_ros, free_port, note, fail.
+# environment in which ROS 1 works, and offers: install_packages PURPOSE..., configure SOURCE BUILD, enter_ros, free_port, note, fail.
 #
 # Packages come from Debian's own archive (11 to 13; Ubuntu from 22.04 on carries the same in universe) or, on
 # Ubuntu 20.04, from the ROS archive (Noetic).
@@ -51,7 +51,8 @@ packages_for() {
     core) common='g++ make cmake pkg-config libassimp-dev libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
     build) common="$(packages_for core) libboost-program-options-dev" ;;
-    test) common="$(packages_for clang) libbenchmark-dev libgtest-dev" ;;
+    fast) common='ccache ninja-build' ;;
+    test) common="$(packages_for clang) $(packages_for fast) libbenchmark-dev libgtest-dev" ;;
     lint) common='clang-format clang-tidy catkin-lint' ;;
     demo) common='python3-matplotlib' ;;
     rviz) common='' ;;
@@ -143,6 +144,21 @@ This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install 
   for pictures of the running simulation rviz
 TEXT
   exit 1
+}
+
+# configure SOURCE BUILD OPTION...: by CMake, with what makes builds fast where it is there. ccache keeps what was compiled in
+# $XDG_CACHE_HOME/hovercraft_sim (~/.cache/hovercraft_sim), which a CI may keep from run to run: it goes by content.
+configure() {
+  local source=$1 folder=$2 options=()
+  shift 2
+  if command -v ccache > /dev/null; then
+    export CCACHE_DIR=${CCACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/hovercraft_sim/ccache}
+    export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_DEPEND=1 CCACHE_MAXSIZE=${CCACHE_MAXSIZE:-2G}
+    options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  # A folder keeps the generator that it was configured with.
+  if command -v ninja > /dev/null && [[ ! -f $folder/CMakeCache.txt ]]; then options+=(-G Ninja); fi
+  cmake -S "$source" -B "$folder" ${options[@]+"${options[@]}"} "$@"
 }
 
 # Takes ROS into the environment where it lies outside /usr.
