@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
@@ -162,6 +163,7 @@ LeastOverlap OverlapSearch::answer(const Vector3& origin) const {
 
 LeastOverlap leastOverlap(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
                           const Pose& X_WB) {
+  const FloatingPointEnvironment environment;
   OverlapSearch search(A, X_WA, B, X_WB);
   search.faces(0);
   search.faces(1);

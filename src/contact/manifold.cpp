@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
@@ -241,6 +242,7 @@ void addClosest(const ClosestFeatures& closest, ContactManifold& manifold) {
 ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
                                 const ConvexPolyhedron& B, const Pose& X_WB,
                                 const ClosestFeatures& closest, double band) {
+  const FloatingPointEnvironment environment;
   ContactManifold manifold;
   manifold.nhat_AB_W = closest.nhat_AB_W;
   const double aligned = 1.0 - 0.5 * kFaceAlignment * kFaceAlignment;

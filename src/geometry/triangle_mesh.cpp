@@ -15,6 +15,7 @@
 #include "hovercraft_sim/geometry/shells.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -283,6 +284,7 @@ void checkShells(const TriangleMesh& mesh, const std::string& name) {
 }  // namespace
 
 void checkClosed(const TriangleMesh& mesh, const std::string& name) {
+  const FloatingPointEnvironment environment;
   if (mesh.triangles.empty()) refuse(name, "no triangles");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (mesh.vertices[i].allFinite()) continue;
@@ -294,6 +296,7 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
 }
 
 TriangleMesh loadSurface(const std::string& path) {
+  const FloatingPointEnvironment environment;
   const std::string name = "mesh file '" + path + "'";
   if (!std::ifstream(path)) refuse(name, "does not exist or cannot be read");
   Assimp::Importer importer;
@@ -310,6 +313,7 @@ TriangleMesh loadSurface(const std::string& path) {
 }
 
 TriangleMesh loadTriangleMesh(const std::string& path) {
+  const FloatingPointEnvironment environment;
   TriangleMesh mesh = loadSurface(path);
   checkClosed(mesh, "mesh file '" + path + "'");
   return mesh;

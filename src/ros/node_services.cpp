@@ -8,6 +8,7 @@
 
 #include <hovercraft_sim/ApplyWrench.h>
 #include <hovercraft_sim/Reset.h>
+#include <hovercraft_sim/ScheduleCommands.h>
 #include <hovercraft_sim/SetState.h>
 #include <hovercraft_sim/Snapshot.h>
 #include <hovercraft_sim/Step.h>
@@ -91,10 +92,21 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
       node_, own, "apply_wrench", [this](const auto& request, auto& response) {
         const hovercraft::Tick tick = node_.liveRun().simulation().tick();
         const auto event =
-            applyWrenchEvent(node_.config().scenario, request, node_.config().world_frame, tick);
+            applyWrenchEvent(node_.config().scenario, request, node_.config().frames, tick);
         node_.apply(event);
         response.tick = static_cast<std::uint64_t>(tick);
         response.end_tick = event.end_tick;
+      }));
+  servers_.push_back(serve<hovercraft_sim::ScheduleCommands>(
+      node_, own, "schedule", [this](const auto& request, auto& response) {
+        const hovercraft::Tick tick = node_.liveRun().simulation().tick();
+        response.tick = static_cast<std::uint64_t>(tick);
+        response.episode = node_.liveRun().episode();
+        const NodeConfig& config = node_.config();
+        if (config.lockstep) {
+          response.control_period = static_cast<std::uint64_t>(config.control_period);
+        }
+        node_.schedule(scheduledCommands(config.scenario, request, response.episode, tick));
       }));
   servers_.push_back(serve<hovercraft_sim::Snapshot>(
       node_, own, "save", [this](const auto& request, auto& response) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/time.h"
 
 namespace hovercraft {
@@ -202,6 +203,7 @@ std::size_t missedBy(const Trajectory& other, const UnmatchedSamples& unmatched)
 
 Comparison compareTrajectories(const Trajectory& a, const Trajectory& b,
                                const CompareOptions& options) {
+  const FloatingPointEnvironment environment;
   checkTolerance(options.position_tolerance, "position tolerance", "m");
   checkTolerance(options.attitude_tolerance, "attitude tolerance", "rad");
   const auto samples_a = samplesOf(a, options.from_start);

@@ -8,6 +8,8 @@
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
 namespace {
@@ -61,7 +63,7 @@ BodyReport reportOnMesh(const MassReportRequest& request) {
 
 /// A number for JSON. Adding 0 turns -0 into 0.
 std::string exact(double number) {
-  return fmt::format("{:.17g}", number + 0.0);
+  return numberText(number + 0.0);
 }
 
 std::string jsonOf(const Vector3& v) {
@@ -120,6 +122,7 @@ std::string textOf(const BodyReport& body) {
 std::vector<BodyReport> bodiesOf(
     const MassReportRequest& request,
     const std::function<Scenario(const std::string& path)>& load_scenario) {
+  const FloatingPointEnvironment environment;
   if (request.density && request.mass) {
     throw std::invalid_argument("--density and --mass: only one of them can be given");
   }
@@ -141,12 +144,14 @@ std::vector<BodyReport> bodiesOf(
 }
 
 std::string toText(const std::vector<BodyReport>& bodies) {
+  const FloatingPointEnvironment environment;
   std::string text;
   for (const BodyReport& body : bodies) text += (text.empty() ? "" : "\n") + textOf(body);
   return text;
 }
 
 std::string toJson(const std::vector<BodyReport>& bodies) {
+  const FloatingPointEnvironment environment;
   if (bodies.size() == 1) return jsonOf(bodies.front()) + "\n";
   std::string members;
   for (const BodyReport& body : bodies) {

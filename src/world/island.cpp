@@ -170,7 +170,8 @@ BodyState Island::moved(const IslandMember& member, double from, double to,
                                    drive.is_pushed || pressed ? &load : nullptr};
   return std::visit(
       [&](const auto& body) -> BodyState {
-        return integrationStep(world_.rules_.integrator, body, system, to - from);
+        return integrationStep<decltype(body.orientation)>(world_.rules_.integrator, body, system,
+                                                           to - from);
       },
       member.state);
 }

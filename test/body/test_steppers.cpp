@@ -218,5 +218,37 @@ TEST(Steppers, SemiImplicitEulerUsesTheNewVelocityAndEulerTheOldOne) {
   EXPECT_EQ(next(Integrator::kHeun).momentum_W.x(), 4.0);
 }
 
+// The same of the turn: from rest by a torque of 2 N m about each axis in its turn, 1 kg m², h =
+// 0.5 s. The new rate is w = h 2 = 1 rad/s; q + h/2 w q = (1, 0.25), and half of that for Heun's
+// mean of the slopes at w = 0 and at w = 1.
+TEST(Steppers, SemiImplicitEulerTurnsByTheNewRateAndEulerByTheOldOne) {
+  struct Turning {
+    const Mobility& mobility;
+    Vector3 torque_W;
+    StateDerivative<Quaternion> derivative(const RigidBodyState<Quaternion>& state,
+                                           Stage /*stage*/) const {
+      const Twist twist = mobility.twist(state);
+      return {twist.v_WB, orientationRate(twist.w_WB, state.orientation), Vector3::Zero(),
+              torque_W};
+    }
+    Twist twist(const RigidBodyState<Quaternion>& state) const { return mobility.twist(state); }
+  };
+  const Mobility mobility = Mobility::spatial(1.0, Matrix3::Identity());
+  const auto state =
+      stateOf<Quaternion>(mobility, Matrix3::Identity(), Vector3::Zero(), Vector3::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto ratio = [&](Integrator integrator) {
+      const Turning turning{mobility, 2.0 * Vector3::Unit(axis)};
+      const Quaternion q = integrationStep(integrator, state, turning, 0.5).orientation;
+      EXPECT_EQ(q.v[(axis + 1) % 3], 0.0);
+      EXPECT_EQ(q.v[(axis + 2) % 3], 0.0);
+      return q.v[axis] / q.s;
+    };
+    EXPECT_EQ(ratio(Integrator::kEuler), 0.0);
+    EXPECT_NEAR(ratio(Integrator::kSemiImplicitEuler), 0.25, 1e-15);
+    EXPECT_NEAR(ratio(Integrator::kHeun), 0.125, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace hovercraft

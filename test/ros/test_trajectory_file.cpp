@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -105,6 +106,42 @@ class TrajectoryFile : public ::testing::Test {
   TestFolder folder_;
   std::string path_ = folder_.file("run.bag");
 };
+
+// A recorder that comes to a run that stands is given the state of that tick; then came a reset.
+TEST_F(TrajectoryFile, AStateAloneOfTheEpisodeBeforeIsLeftOut) {
+  write([](rosbag::Bag& bag) {
+    bag.write("/craft/state", stampOfTick(3), stateAt(17));
+    for (const std::int64_t tick : {5, 10, 20}) {
+      auto state = stateAt(tick);
+      state.episode = 1;
+      bag.write("/craft/state", stampOfTick(tick), state);
+    }
+  });
+  const auto samples = readTrajectories(path_).front().samples;
+  ASSERT_EQ(samples.size(), 3U);
+  EXPECT_EQ(samples.front().time_ns, 5 * kStepNs);
+  EXPECT_EQ(samples.back().time_ns, 20 * kStepNs);
+}
+
+// Where the stamp of tick 0 would be 0, which ROS takes for no time.
+TEST_F(TrajectoryFile, TickZeroMayHaveTheStampOfTickOne) {
+  for (const std::vector<std::int64_t>& ticks :
+       {std::vector<std::int64_t>{0, 10}, std::vector<std::int64_t>{0, 5, 10, 20}}) {
+    write([&](rosbag::Bag& bag) {
+      for (const std::int64_t tick : ticks) {
+        auto state = stateAt(tick);
+        state.header.stamp.fromNSec(
+            static_cast<std::uint64_t>(std::max<std::int64_t>(tick, 1) * kStepNs));
+        bag.write("/craft/state", state.header.stamp, state);
+      }
+    });
+    const auto samples = readTrajectories(path_).front().samples;
+    ASSERT_EQ(samples.size(), ticks.size());
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+      EXPECT_EQ(samples[i].time_ns, ticks[i] * kStepNs);
+    }
+  }
+}
 
 TEST_F(TrajectoryFile, PrefersStateAndCountsItsTimeFromTickZero) {
   write([](rosbag::Bag& bag) {
@@ -280,6 +317,7 @@ TEST_F(TrajectoryFile, EveryBadMessageIsNamedByTopicTimeAndRule) {
       "before it");
   check(
       [](rosbag::Bag& bag) {
+        bag.write("/craft/state", stampOfTick(0), stateAt(0));
         bag.write("/craft/state", stampOfTick(1), stateAt(1));
         auto state = stateAt(2);
         state.episode = 1;

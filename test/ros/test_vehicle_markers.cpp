@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/ros/vehicle_markers.h"
 
 #include "../support/scenario_text.h"
@@ -64,6 +68,86 @@ TEST(VehicleMarkers, EveryPartAndEveryEngineIsDrawnInBaseLink) {
   }
 }
 
+void expectAt(const geometry_msgs::Point& point, const Vector3& expected) {
+  EXPECT_NEAR(point.x, expected.x(), 1e-12);
+  EXPECT_NEAR(point.y, expected.y(), 1e-12);
+  EXPECT_NEAR(point.z, expected.z(), 1e-12);
+}
+
+void expectScale(const Marker& marker, const Vector3& expected) {
+  EXPECT_NEAR(marker.scale.x, expected.x(), 1e-12);
+  EXPECT_NEAR(marker.scale.y, expected.y(), 1e-12);
+  EXPECT_NEAR(marker.scale.z, expected.z(), 1e-12);
+}
+
+/// Where a marker's pose takes a direction of its own.
+Vector3 turned(const Marker& marker, const Vector3& direction) {
+  const geometry_msgs::Quaternion& q = marker.pose.orientation;
+  return hovercraft::rotationMatrix(hovercraft::Quaternion{q.w, {q.x, q.y, q.z}}) * direction;
+}
+
+// RViz reads a mesh by its URI; "file://" and an absolute path are one.
+TEST(VehicleMarkers, AMeshIsDrawnFromItsFile) {
+  const std::string part =
+      "    parts: [{mesh: {file: l_shape.obj}, mass: 2, position: [1, 2, 3]}]\n";
+  hovercraft::ScenarioSource source;
+  source.name = "test.yaml";
+  source.directory = (std::filesystem::current_path() / "test/data").string();
+  const auto scenario = hovercraft::parseScenario(
+      YAML::Load(hovercraft::testing::with(hovercraft::testing::validScenario(),
+                                           hovercraft::testing::kMassByNumbers, part)),
+      source);
+  const Marker mesh = craftMarkers(scenario.vehicles.front()).front();
+  EXPECT_EQ(mesh.type, Marker::MESH_RESOURCE);
+  EXPECT_EQ(mesh.mesh_resource, "file://" + source.directory + "/l_shape.obj");
+  EXPECT_EQ(mesh.mesh_resource.rfind("file:///", 0), 0U);
+  expectScale(mesh, Vector3::Ones());
+  expectAt(mesh.pose.position, {1.0, 2.0, 3.0});
+}
+
+TEST(VehicleMarkers, EachSolidHasItsSizesPlaceAndTurn) {
+  const auto scenario = hovercraft::testing::parsed(hovercraft::testing::scenarioOfParts());
+  const std::vector<Marker> markers = craftMarkers(scenario.vehicles.front());
+  expectScale(markers[0], {0.6, 0.4, 0.1});
+  expectScale(markers[1], {0.1, 0.1, 0.2});    // two radii, two radii, length
+  expectScale(markers[2], {0.14, 0.14, 0.3});  // RViz: shaft and head diameter, length of the head
+  expectAt(markers[2].points[0], {0.0, 0.0, -0.15});  // from its base to its tip
+  expectAt(markers[2].points[1], {0.0, 0.0, 0.15});
+  expectScale(markers[3], {0.066, 0.066, 0.066});
+  expectAt(markers[0].pose.position, Vector3::Zero());
+  expectAt(markers[1].pose.position, {-0.25, 0.0, 0.1});
+  expectAt(markers[2].pose.position, {0.3, 0.0, 0.05});
+  expectAt(markers[3].pose.position, {0.01, 0.07, 0.0});
+  // Pitch by a right angle takes z to x.
+  EXPECT_LT((turned(markers[1], Vector3::UnitZ()) - Vector3::UnitX()).norm(), 1e-12);
+  std::set<std::pair<std::string, int>> names;
+  for (const Marker& marker : markers) names.insert({marker.ns, marker.id});
+  EXPECT_EQ(names.size(), markers.size());
+}
+
+TEST(VehicleMarkers, EnginesStandWhereTheyPushAndAlongIt) {
+  const hovercraft::VehicleScenario alpha = craft();
+  const std::vector<Marker> markers = craftMarkers(alpha);
+  ASSERT_EQ(markers.size(), 2U + 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Marker& fan = markers[2 + i];
+    EXPECT_EQ(fan.type, Marker::CYLINDER);
+    expectAt(fan.pose.position, alpha.engines[i].p_HE);
+    EXPECT_LT((turned(fan, Vector3::UnitZ()) - alpha.engines[i].direction).norm(), 1e-12) << i;
+  }
+}
+
+// A box of the same tensor, and the bow a quarter of its length ahead of the centre of mass.
+TEST(VehicleMarkers, ACraftByNumbersIsDrawnAboutItsCentreOfMass) {
+  const hovercraft::VehicleScenario alpha = craft();
+  const std::vector<Marker> markers = craftMarkers(alpha);
+  const Vector3 edges = equivalentBox(alpha.mass_properties);
+  EXPECT_EQ(markers[0].type, Marker::CUBE);
+  expectScale(markers[0], edges.cwiseMax(0.02));
+  expectAt(markers[0].pose.position, {0.01, 0.02, 0.03});
+  expectAt(markers[1].pose.position, {0.01 + 0.25 * edges.x(), 0.02, 0.03});
+}
+
 TEST(VehicleMarkers, AnEngineOfNoThrustIsNotBuiltIn) {
   hovercraft::VehicleScenario without = craft();
   const std::size_t before = craftMarkers(without).size();
@@ -79,7 +163,12 @@ TEST(VehicleMarkers, ArrowsGrowWithTheThrustAndTurnRedWhenSaturated) {
   const std::vector<Marker> arrows = thrustMarkers(craft(), status);
   ASSERT_EQ(arrows.size(), 3U);
   EXPECT_NEAR(lengthOf(arrows[0]), 0.5 * lengthOf(arrows[1]), 1e-12);
-  EXPECT_LT(arrows[0].points[1].x, arrows[0].points[0].x);  // backwards
+  // From the engine along its direction, 0.8 m at full thrust: backwards at half, to the right at
+  // full.
+  expectAt(arrows[0].points[0], {-0.25, 0.0, 0.05});
+  expectAt(arrows[0].points[1], {-0.25 - 0.4, 0.0, 0.05});
+  expectAt(arrows[1].points[0], {0.2, 0.15, 0.05});
+  expectAt(arrows[1].points[1], {0.2, 0.15 - 0.8, 0.05});
   EXPECT_GT(arrows[1].color.r, arrows[1].color.g + 0.5F);
   EXPECT_GT(arrows[0].color.g, 0.5F);
   EXPECT_EQ(arrows[2].action, Marker::DELETE);
@@ -111,12 +200,29 @@ TEST(VehicleMarkers, ObstaclesAndLooseBodiesAreDrawnWhereTheyAre) {
   }
 }
 
+TEST(VehicleMarkers, APrefixStandsBeforeTheFrameOfEach) {
+  std::vector<Marker> markers = craftMarkers(craft());
+  const std::string frame = markers.front().header.frame_id;
+  addPrefix("", markers);
+  EXPECT_EQ(markers.front().header.frame_id, frame);
+  addPrefix("fleet/red", markers);
+  for (const Marker& marker : markers) EXPECT_EQ(marker.header.frame_id, "fleet/red/" + frame);
+}
+
 TEST(VehicleMarkers, APathNeedsTwoPoints) {
   std::vector<geometry_msgs::Point> path(1);
   EXPECT_EQ(pathMarker(craft(), "map", path).action, Marker::DELETE);
   path.emplace_back();
   EXPECT_EQ(pathMarker(craft(), "map", path).action, Marker::ADD);
-  EXPECT_EQ(pathMarker(craft(), "map", path).header.frame_id, "map");
+  path.back().y = 2.0;
+  const Marker line = pathMarker(craft(), "map", path);
+  EXPECT_EQ(line.header.frame_id, "map");
+  EXPECT_EQ(line.type, Marker::LINE_STRIP);
+  EXPECT_EQ(line.ns, "alpha/path");
+  EXPECT_EQ(line.frame_locked, 0);
+  EXPECT_EQ(line.scale.x, 0.03);
+  ASSERT_EQ(line.points.size(), 2U);
+  expectAt(line.points[1], {0.0, 2.0, 0.0});
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ TEST(VehicleMessages, StampIsEpochPlusTimeInWholeNanoseconds) {
 
 TEST(VehicleMessages, EveryHeaderHasTheStampAndItsFrame) {
   const Simulation simulation = flownSimulation();
-  VehicleMessages messages(simulation.scenario(), 0, "map");
+  VehicleMessages messages(simulation.scenario(), 0, {"map", ""});
   messages.fill(simulation, {kStampOfAll});
   const std::vector<const std_msgs::Header*> in_world = {
       &messages.pose().header, &messages.odom().header, &messages.transform().header,
@@ -51,6 +51,32 @@ TEST(VehicleMessages, EveryHeaderHasTheStampAndItsFrame) {
   EXPECT_EQ(messages.odom().child_frame_id, "alpha/base_link");
   EXPECT_EQ(messages.transform().child_frame_id, "alpha/base_link");
   EXPECT_EQ(messages.name(), "alpha");
+}
+
+TEST(VehicleMessages, EveryFrameButTheWorldHasThePrefix) {
+  const Simulation simulation = flownSimulation();
+  VehicleMessages messages(simulation.scenario(), 0, {"map", "fleet/red"});
+  messages.fill(simulation, {kStampOfAll});
+  for (const std_msgs::Header* header : {&messages.pose().header, &messages.odom().header,
+                                         &messages.transform().header, &messages.state().header}) {
+    EXPECT_EQ(header->frame_id, "map");
+  }
+  const std::string base = "fleet/red/alpha/base_link";
+  EXPECT_EQ(messages.twist().header.frame_id, base);
+  EXPECT_EQ(messages.engines().header.frame_id, base);
+  EXPECT_EQ(messages.appliedCommand({}, {kStampOfAll}).header.frame_id, base);
+  EXPECT_EQ(messages.odom().child_frame_id, base);
+  EXPECT_EQ(messages.transform().child_frame_id, base);
+  const auto engines = messages.engineFrames(kStampOfAll);
+  ASSERT_EQ(engines.size(), 3U);
+  for (const auto& engine : engines) EXPECT_EQ(engine.header.frame_id, base);
+  EXPECT_EQ(engines[0].child_frame_id, "fleet/red/alpha/engine_rear");
+  EXPECT_EQ(engines[1].child_frame_id, "fleet/red/alpha/engine_left");
+  EXPECT_EQ(engines[2].child_frame_id, "fleet/red/alpha/engine_right");
+  EXPECT_EQ(prefixOf(base, "alpha"), "fleet/red");
+  EXPECT_EQ(prefixOf("alpha/base_link", "alpha"), "");
+  EXPECT_EQ(prefixOf("beta/base_link", "alpha"), "");
+  EXPECT_EQ(prefixOf("", "alpha"), "");
 }
 
 TEST(VehicleMessages, TheWorldFrameIsCalledWorldIfNothingElseIsSaid) {
@@ -117,14 +143,16 @@ TEST(VehicleMessages, AnAppliedCommandCarriesStampFrameEpisodeAndNumber) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
   const hovercraft::Command command = {
-      25, 0, hovercraft::maskOf(hovercraft::EngineId::kLeft), {0, 1, 0}};
+      25, 0, hovercraft::maskOf(hovercraft::EngineId::kLeft), {0.5, 1.0, 0.25}};
   const hovercraft_sim::AppliedCommand message = messages.appliedCommand(command, {kStampOfAll, 4});
   EXPECT_EQ(message.header.stamp, kStampOfAll);
   EXPECT_EQ(message.header.frame_id, "alpha/base_link");
   EXPECT_EQ(message.episode, 4U);
   EXPECT_EQ(message.tick, 25U);
   EXPECT_EQ(message.engines, hovercraft_sim::AppliedCommand::LEFT);
+  EXPECT_EQ(message.rear, 0.5);  // as it was sent, whatever the mask
   EXPECT_EQ(message.left, 1.0);
+  EXPECT_EQ(message.right, 0.25);
   EXPECT_EQ(message.number, 1U);
   EXPECT_EQ(messages.appliedCommand(command, {kStampOfAll, 4}).number, 2U);
   messages.fill(simulation, {kStampOfAll, 4});

@@ -11,6 +11,7 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from hovercraft_sim.msg import AppliedCommand, State, Telemetry
 from hovercraft_sim.srv import Step
+from rosgraph_msgs.msg import Log
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -199,14 +200,22 @@ class PaceTest(unittest.TestCase):
             self.set_pace(1.0)
 
     def test_a_pace_that_cannot_be_meant_is_refused_and_the_old_one_kept(self):
+        log = []
+        rosout = rospy.Subscriber('/rosout', Log, lambda line: log.append(line.msg))
+        wait_for_connections(rosout)
         self.assertEqual(self.set_pace(4.0), 4.0)
         try:
-            self.assertEqual(self.set_pace(math.nan), 4.0)
-            self.assertEqual(self.set_pace(1e-9), 4.0)
+            for wanted, shown in ((-1.0, '-1'), (-math.inf, '-inf'), (1001.0, '1001'), (math.inf, 'inf'), (math.nan, 'nan'),
+                                  (1e-9, '1e-09')):
+                self.assertEqual(self.set_pace(wanted), 4.0, wanted)
+                said = f'real_time_factor = {shown}: must be 0 (as fast as it can) or 1e-6 to 1000; it stays 4'
+                wait_until(lambda line=said: line in log, said)
             self.wait_for_report()
             self.assertEqual(self.wanted, 4.0)
+            self.assertEqual(rospy.get_param('/hovercraft_sim/real_time_factor'), 4.0)
         finally:
             self.set_pace(1.0)
+            rosout.unregister()
 
 
 if __name__ == '__main__':

@@ -124,6 +124,16 @@ TEST(Snapshot, OneOfAnotherScenarioIsRefused) {
             "snap.yaml: scenario: the snapshot belongs to another scenario");
 }
 
+// Version 0.1 wrote 17 digits: the same numbers in another text.
+TEST(Snapshot, ItsScenarioMayBeWrittenOtherwise) {
+  const Scenario scenario = parsed(with(validScenario(), "mass: 5.5", "mass: 0.6"));
+  const std::string text = toSnapshot(underWay(scenario));
+  const std::string other = with(text, "mass: 0.6\n", "mass: 0.59999999999999998\n");
+  EXPECT_EQ(complaintAbout(other, scenario), "");
+  EXPECT_EQ(complaintAbout(with(text, "mass: 0.6\n", "mass: 0.59999999999999987\n"), scenario),
+            "snap.yaml: scenario: the snapshot belongs to another scenario");
+}
+
 TEST(Snapshot, OneThatWasChangedIsRefused) {
   const Scenario scenario = parsed(validScenario());
   const std::string changed = with(toSnapshot(underWay(scenario)), "tick: 350\n", "tick: 351\n");

@@ -135,6 +135,34 @@ TEST_F(StatesCsv, SeveralVehiclesAreNamedInAColumn) {
   EXPECT_EQ(read[1].samples.back().p_WB.x(), 0.0);
 }
 
+// A crate far off that moves by 0.25 m/s and the craft at rest: at 0.1 s it has moved by 0.025 m.
+TEST_F(StatesCsv, ALooseBodyHasARowOfItsOwnAtEachTime) {
+  write(oneCraftYaml() + R"(    hull: {box: {size: [1, 1, 1]}}
+world:
+  bodies:
+    crate: {parts: [{box: {size: [1, 1, 1]}, mass: 1}], initial: {position: [30, 4, 0], velocity: [0.25, 0, 0]}}
+)",
+        10, 5);
+  const std::string content = contentOf(path_);
+  EXPECT_EQ(content.substr(0, content.find('\n')),
+            "time,vehicle,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz");
+  EXPECT_NE(content.find("\n0,crate,30,4,0,0,0,0,1,0.25,0,0,0,0,0\n"), std::string::npos)
+      << content;
+  const std::vector<Trajectory> read = readStatesCsv(path_);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[0].vehicle, "craft");
+  EXPECT_EQ(read[1].vehicle, "crate");
+  for (const Trajectory& trajectory : read) {
+    ASSERT_EQ(trajectory.samples.size(), 3U) << trajectory.vehicle;
+    for (std::size_t row = 0; row < 3; ++row) {
+      EXPECT_EQ(trajectory.samples[row].time_ns, static_cast<std::int64_t>(row) * 50000000)
+          << trajectory.vehicle;
+    }
+  }
+  EXPECT_NEAR(read[1].samples.back().p_WB.x(), 30.025, 1e-12);
+  EXPECT_EQ(read[1].samples.back().p_WB.y(), 4.0);
+}
+
 TEST_F(StatesCsv, AFullDiskIsAnError) {
   Simulation simulation(scenarioOf(oneCraftYaml()));
   SteadyCommands commands;

@@ -1,0 +1,21 @@
+# The core alone and its gtests, for -DHOVERCRAFT_CORE_ONLY=ON: no ROS, no bags, no Python.
+
+find_package(Boost REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(GTest REQUIRED)
+find_package(Threads REQUIRED)
+
+include_directories(include)
+include(cmake/hovercraft_core.cmake)
+
+enable_testing()
+foreach(module architecture math geometry body hovercraft collision contact world sim determinism)
+  file(GLOB test_sources CONFIGURE_DEPENDS test/${module}/test_*.cpp)
+  set(target ${PROJECT_NAME}_test_${module})
+  add_executable(${target} ${test_sources} test/main.cpp)
+  # They reach what the shared library keeps to itself: its objects.
+  target_link_libraries(${target} hovercraft_core_objects GTest::GTest Threads::Threads)
+  hovercraft_unity(${target} tests ${test_sources})
+  add_test(NAME ${module} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+endforeach()
+target_sources(${PROJECT_NAME}_test_determinism PRIVATE test/determinism/recorded_runs.cpp)
