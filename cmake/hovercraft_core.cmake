@@ -2,6 +2,7 @@
 # does test/determinism, which builds the core without ROS; both find Eigen and Boost before.
 
 option(HOVERCRAFT_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+option(HOVERCRAFT_FUZZ "Programs of libFuzzer for the readers of foreign bytes, with the sanitizers (clang++; scripts/fuzz)" OFF)
 option(HOVERCRAFT_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
 
 find_package(fmt REQUIRED)
@@ -25,6 +26,11 @@ add_compile_definitions(EIGEN_INITIALIZE_MATRICES_BY_NAN)
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wold-style-cast)
 if(HOVERCRAFT_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
+endif()
+if(HOVERCRAFT_FUZZ)
+  set(HOVERCRAFT_SANITIZE ON)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_link_options(-fsanitize=fuzzer-no-link)
 endif()
 if(HOVERCRAFT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)

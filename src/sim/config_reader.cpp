@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
 #include <locale>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 
+#include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
@@ -51,14 +53,21 @@ const NumberRule kPositive = {[](double x) { return x > 0.0; }, "must be greater
 const NumberRule kNotNegative = {[](double x) { return x >= 0.0; }, "must be 0 or greater"};
 const NumberRule kNotPositive = {[](double x) { return x <= 0.0; }, "must be 0 or less"};
 
-ConfigReader::ConfigReader(const YAML::Node& node, std::string source, std::string path)
-    : node_(node), source_(std::move(source)), path_(std::move(path)) {
+const NumberRule kLength = {[](double x) { return x > 0.0 && x <= kFarthest; },
+                            "must be greater than 0 and at most 1e100"};
+const NumberRule kCoordinate = {[](double x) { return std::abs(x) <= kFarthest; },
+                                "must be at most 1e100, of either sign"};
+
+ConfigReader::ConfigReader(const YAML::Node& node, std::string source, std::string path,
+                           bool quotes)
+    : node_(node), source_(std::move(source)), path_(std::move(path)), quotes_(quotes) {
   if (!node_.IsDefined() || node_.IsNull()) fail("", "must be a map of keys; it is empty");
   if (!node_.IsMap()) fail("", "must be a map of keys");
 }
 
 std::string ConfigReader::where(const std::string& key) const {
   const std::string path = pathOf(key);
+  if (!quotes_) return path.empty() ? source_ : source_ + ": " + path;
   std::string value;
   if (key.empty()) {
     value = shown(node_);
@@ -84,7 +93,7 @@ void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
   for (const auto& entry : node_) {
     const std::string key = textOf(entry.first);
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-      fail(key, fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
+      fail(quotes_ ? key : "", fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
     }
     if (++seen[key] == 2) fail(key, "the key stands twice");
   }
@@ -104,14 +113,14 @@ YAML::Node ConfigReader::required(const std::string& key) const {
 }
 
 ConfigReader ConfigReader::map(const std::string& key) const {
-  return {required(key), source_, pathOf(key)};
+  return {required(key), source_, pathOf(key), quotes_};
 }
 
 std::vector<std::pair<std::string, ConfigReader>> ConfigReader::maps() const {
   std::map<std::string, ConfigReader> sorted;
   for (const auto& entry : node_) {
     const std::string key = textOf(entry.first);
-    if (!sorted.emplace(key, ConfigReader(entry.second, source_, pathOf(key))).second) {
+    if (!sorted.emplace(key, ConfigReader(entry.second, source_, pathOf(key), quotes_)).second) {
       fail(key, "the name stands twice");
     }
   }
@@ -123,7 +132,7 @@ std::vector<ConfigReader> ConfigReader::list(const char* key) const {
   if (!sequence.IsSequence() || sequence.size() == 0) fail(key, "must be a list, not empty");
   std::vector<ConfigReader> readers;
   for (std::size_t i = 0; i < sequence.size(); ++i) {
-    readers.emplace_back(sequence[i], source_, fmt::format("{}[{}]", pathOf(key), i));
+    readers.emplace_back(sequence[i], source_, fmt::format("{}[{}]", pathOf(key), i), quotes_);
   }
   return readers;
 }

@@ -11,11 +11,16 @@
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_parser.h"
+#include "hovercraft_sim/sim/yaml_nesting.h"
 
 namespace hovercraft {
 namespace {
+
+// The hull of a mesh of 8,192 vertices, written point by point, has half a megabyte.
+constexpr std::size_t kMostScenarioBytes = 16777216;
 
 std::int64_t nanoseconds(const ConfigReader& reader, const char* key, double seconds) {
   const double exact = seconds * static_cast<double>(kNanosecondsPerSecond);
@@ -99,13 +104,13 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   if (part.has("box")) {
     const ConfigReader box = part.map("box");
     box.allowOnly({"size"});
-    const Vector3 size = box.vector("size", kPositive);
+    const Vector3 size = box.vector("size", kLength);
     return {{BoxShape{size}}, boxMassProperties(checkedVolume(boxVolume(size), box), size)};
   }
   if (part.has("sphere")) {
     const ConfigReader sphere = part.map("sphere");
     sphere.allowOnly({"radius"});
-    const double radius = sphere.number("radius", kPositive);
+    const double radius = sphere.number("radius", kLength);
     return {{SphereShape{radius}},
             sphereMassProperties(checkedVolume(sphereVolume(radius), sphere), radius)};
   }
@@ -118,8 +123,8 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   const bool is_cone = part.has("cone");
   const ConfigReader round = part.map(is_cone ? "cone" : "cylinder");
   round.allowOnly({"radius", "length"});
-  const double radius = round.number("radius", kPositive);
-  const double length = round.number("length", kPositive);
+  const double radius = round.number("radius", kLength);
+  const double length = round.number("length", kLength);
   if (is_cone) {
     return {{ConeShape{radius, length}},
             coneMassProperties(checkedVolume(coneVolume(radius, length), round), radius, length)};
@@ -149,7 +154,7 @@ std::pair<PartScenario, MassProperties> parsePart(const ConfigReader& reader,
   if (!isPositiveAndFinite(part.mass)) {
     reader.fail("density", "makes a mass that is not positive and finite");
   }
-  part.p_HP = reader.vectorOr(Vector3::Zero(), "position");
+  part.p_HP = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   part.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
   parsed.unit.I_BBo_B *= part.mass / parsed.unit.mass;
   parsed.unit.mass = part.mass;
@@ -172,7 +177,7 @@ void parseMass(const ConfigReader& reader, const ScenarioSource& source, Vehicle
     return;
   }
   vehicle.mass_properties.mass = reader.number("mass", kPositive);
-  vehicle.mass_properties.p_HB = reader.vectorOr(Vector3::Zero(), "center_of_mass");
+  vehicle.mass_properties.p_HB = reader.vectorOr(Vector3::Zero(), "center_of_mass", kCoordinate);
   vehicle.mass_properties.I_BBo_B = parseInertia(reader);
   checkInertia(vehicle.mass_properties.I_BBo_B, reader.where("inertia"));
 }
@@ -181,7 +186,7 @@ EngineParameters parseEngine(const ConfigReader& reader) {
   reader.allowOnly(
       {"position", "direction", "min_thrust", "max_thrust", "time_constant", "timeout"});
   EngineParameters engine;
-  engine.p_HE = reader.vector("position");
+  engine.p_HE = reader.vector("position", kCoordinate);
   engine.direction = reader.vector("direction");
   if (std::abs(norm(engine.direction) - 1.0) > kUnitLength) {
     reader.fail("direction",
@@ -197,7 +202,7 @@ EngineParameters parseEngine(const ConfigReader& reader) {
 
 void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& vehicle) {
   reader.allowOnly({"position", "rpy", "velocity", "angular_velocity"});
-  vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position");
+  vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   vehicle.initial_rpy = reader.vectorOr(Vector3::Zero(), "rpy");
   vehicle.initial_v_WB = reader.vectorOr(Vector3::Zero(), "velocity");
   vehicle.initial_w_WB = reader.vectorOr(Vector3::Zero(), "angular_velocity");
@@ -274,6 +279,7 @@ Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
 }
 
 YAML::Node treeOf(const std::string& text, const std::string& source) {
+  checkNesting(text, source);
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
@@ -284,12 +290,14 @@ YAML::Node treeOf(const std::string& text, const std::string& source) {
 Scenario loadScenario(const std::string& path,
                       std::function<std::string(const std::string&)> package_folder) {
   std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(path, unreadable)) {
+  if (!std::filesystem::exists(path, unreadable)) {
     throw std::invalid_argument(path + ": there is no such file");
   }
+  const std::string text = readWholeFile(path, kMostScenarioBytes);
+  checkNesting(text, path);
   std::vector<YAML::Node> documents;
   try {
-    documents = YAML::LoadAllFromFile(path);
+    documents = YAML::LoadAll(text);
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(fmt::format("{}: not YAML: {}", path, error.what()));
   }

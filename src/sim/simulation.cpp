@@ -246,7 +246,8 @@ void Simulation::stepWorld() {
   contacts_ = state_.contacts;
   world_->step(drives_, moving_, contacts_, records_);
   for (std::size_t i = 0; i < moving_.size(); ++i) {
-    if (!std::visit([](auto& body) { return settle(body); }, moving_[i])) {
+    if (!std::visit([](auto& body) { return settle(body); }, moving_[i]) ||
+        !isInReach(moving_[i])) {
       failAsDiverged(i < count ? "vehicles" : "world.bodies", world_->nameOf(static_cast<int>(i)));
     }
   }

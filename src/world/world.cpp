@@ -258,6 +258,10 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
         states[i]);
     extents_[i].travel = kTravelReserve * travelOf(i, states[i], ends_[i], rules_.step);
   }
+  if (!std::all_of(ends_.begin(), ends_.end(), isInReach)) {
+    states.swap(ends_);  // it diverges: whoever looks at the states sees it
+    return;
+  }
   const std::size_t recorded = records.size();
   bool done = false;
   for (int attempt = 0; attempt < kMaxRestarts && !done; ++attempt) {

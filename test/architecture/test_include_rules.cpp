@@ -31,11 +31,18 @@ const std::map<std::string, Rule>& rules() {
   static const Names messages = {"geometry_msgs/",  "nav_msgs/",          "rosgraph_msgs/",
                                  "std_msgs/",       "std_srvs/",          "tf2_msgs/",
                                  "hovercraft_sim/", "visualization_msgs/"};
-  static const Names of_ros =
-      messages +
-      Names{"Eigen/",  "fmt/",     "yaml-cpp/",     "boost/make_shared.hpp", "ros/",
-            "rosbag/", "tf2_ros/", "XmlRpcValue.h", "diagnostic_updater/",   "dynamic_reconfigure/",
-            "gtest/"};
+  static const Names of_ros = messages + Names{"Eigen/",
+                                               "fmt/",
+                                               "yaml-cpp/",
+                                               "boost/make_shared.hpp",
+                                               "ros/",
+                                               "rosbag/",
+                                               "bzlib.h",
+                                               "tf2_ros/",
+                                               "XmlRpcValue.h",
+                                               "diagnostic_updater/",
+                                               "dynamic_reconfigure/",
+                                               "gtest/"};
   static const std::map<std::string, Rule> table = {
       // boost/multiprecision: exp and sin that are the same on every machine; it needs no library.
       {"math", {{}, {"Eigen/", "boost/multiprecision/"}}},
@@ -47,7 +54,7 @@ const std::map<std::string, Rule>& rules() {
       {"world", {{"math", "geometry", "body", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
       {"sim",
        {{"math", "geometry", "body", "hovercraft", "collision", "contact", "world"},
-        {"fmt/", "yaml-cpp/", "locale.h"}}},
+        {"fmt/", "yaml-cpp/", "locale.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros", {{"math", "geometry", "body", "hovercraft", "sim"}, of_ros}},
       {"nodes", {{"sim", "ros"}, of_ros}},
       {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},

@@ -215,8 +215,7 @@ TEST_F(Tools, ErrorsAreOneLineAndStatusOne) {
            "time,vehicle,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n"},
       {"replay", "replay: the option '--bag' is required but missing\n"},
       {"replay {}no.bag",
-       "replay: " + folder_.file("no.bag") +
-           ": cannot be read as a bag: Error opening file: " + folder_.file("no.bag") + "\n"},
+       "replay: " + folder_.file("no.bag") + ": cannot be read: No such file or directory\n"},
       {"mass_properties", "mass_properties: the option '--file' is required but missing\n"},
       {"mass_properties {}no.yaml",
        "mass_properties: " + folder_.file("no.yaml") + ": there is no such file\n"},

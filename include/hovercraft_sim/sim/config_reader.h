@@ -20,6 +20,8 @@ extern const NumberRule kAnyNumber;
 extern const NumberRule kPositive;
 extern const NumberRule kNotNegative;
 extern const NumberRule kNotPositive;
+extern const NumberRule kLength;      // m, of a body: at most kFarthest
+extern const NumberRule kCoordinate;  // m: at most kFarthest, of either sign
 
 /// One map of a YAML tree, with the path by which the user knows it. Every reading function throws
 /// std::invalid_argument with one line: source, key path, value, rule.
@@ -27,7 +29,10 @@ class ConfigReader {
  public:
   /// @param source name of the file or parameter that the tree came from.
   /// @param path key path of `node` within the source; empty at the top.
-  ConfigReader(const YAML::Node& node, std::string source, std::string path = "");
+  /// @param quotes false: messages show neither values nor unknown keys. For a text that may be any
+  /// file, and whose errors may be read far away.
+  ConfigReader(const YAML::Node& node, std::string source, std::string path = "",
+               bool quotes = true);
 
   /// Throws if there is a key that is not listed, or one that stands twice.
   void allowOnly(std::initializer_list<const char*> keys) const;
@@ -70,6 +75,7 @@ class ConfigReader {
   YAML::Node node_;
   std::string source_;
   std::string path_;
+  bool quotes_ = true;
 };
 
 }  // namespace hovercraft

@@ -10,6 +10,8 @@ namespace hovercraft {
 extern const std::vector<std::string> kIntegratorNames;
 extern const std::vector<std::string> kOrientationNames;
 extern const std::vector<std::string> kModelNames;
+/// The words for the frames of an external wrench, in the order of ExternalWrench::Frame.
+extern const std::vector<std::string> kFrameNames;
 
 /// A name that can be a ROS namespace and a tf prefix: a letter, then letters, digits and
 /// underscores.

@@ -25,6 +25,8 @@ class World {
   /// One step of all bodies. @param states in the order of the bodies; replaced. @param memory of
   /// the last step; replaced. @param records what happened is appended, in the order of time within
   /// each group of bodies that are near each other.
+  /// If a body would come out of reach (isInReach()), nothing meets, and the states are those
+  /// without contact.
   void step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
             std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records);
 
