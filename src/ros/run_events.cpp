@@ -118,7 +118,7 @@ void setMotion(const RunEvent& event, hovercraft::Simulation& simulation) {
   const hovercraft::Twist twist = {fromMessage(event.twist.linear),
                                    fromMessage(event.twist.angular)};
   require(p_WB.cwiseAbs().maxCoeff() <= hovercraft::kFarthest,
-          "pose.position: must be at most 1e100 m, of either sign");
+          "pose.position: must be at most 1e30 m, of either sign");
   const hovercraft::Motion motion = simulation.motionAfterSetting(vehicle, p_WB, q_WB, twist);
   require(motion.momentum_W.allFinite() && motion.angular_momentum_W.allFinite() &&
               std::isfinite(motion.energy),

@@ -53,10 +53,8 @@ const NumberRule kPositive = {[](double x) { return x > 0.0; }, "must be greater
 const NumberRule kNotNegative = {[](double x) { return x >= 0.0; }, "must be 0 or greater"};
 const NumberRule kNotPositive = {[](double x) { return x <= 0.0; }, "must be 0 or less"};
 
-const NumberRule kLength = {[](double x) { return x > 0.0 && x <= kFarthest; },
-                            "must be greater than 0 and at most 1e100"};
 const NumberRule kCoordinate = {[](double x) { return std::abs(x) <= kFarthest; },
-                                "must be at most 1e100, of either sign"};
+                                "must be at most 1e30, of either sign"};
 
 ConfigReader::ConfigReader(const YAML::Node& node, std::string source, std::string path,
                            bool quotes)
@@ -173,6 +171,16 @@ Vector3 ConfigReader::vector(const char* key, const NumberRule& rule) const {
     result[i] = numberAt(sequence[static_cast<std::size_t>(i)], key, rule);
   }
   return result;
+}
+
+double ConfigReader::length(const char* key) const {
+  number(key, kPositive);
+  return number(key, kCoordinate);
+}
+
+Vector3 ConfigReader::lengths(const char* key) const {
+  vector(key, kPositive);
+  return vector(key, kCoordinate);
 }
 
 Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,

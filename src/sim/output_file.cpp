@@ -61,7 +61,7 @@ PartialFile::PartialFile(const std::string& path) : path_(path) {
       fail(error.message());
     }
     // To replace a file takes no leave of its own; who took it away meant it.
-    if (::access(path_.c_str(), W_OK) != 0) fail(systemReason());
+    if (::faccessat(AT_FDCWD, path_.c_str(), W_OK, AT_EACCESS) != 0) fail(systemReason());
   }
   const fs::path parent = fs::path(path_).parent_path();
   name_ = fs::path(path_).filename().string();

@@ -104,13 +104,13 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   if (part.has("box")) {
     const ConfigReader box = part.map("box");
     box.allowOnly({"size"});
-    const Vector3 size = box.vector("size", kLength);
+    const Vector3 size = box.lengths("size");
     return {{BoxShape{size}}, boxMassProperties(checkedVolume(boxVolume(size), box), size)};
   }
   if (part.has("sphere")) {
     const ConfigReader sphere = part.map("sphere");
     sphere.allowOnly({"radius"});
-    const double radius = sphere.number("radius", kLength);
+    const double radius = sphere.length("radius");
     return {{SphereShape{radius}},
             sphereMassProperties(checkedVolume(sphereVolume(radius), sphere), radius)};
   }
@@ -123,8 +123,8 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   const bool is_cone = part.has("cone");
   const ConfigReader round = part.map(is_cone ? "cone" : "cylinder");
   round.allowOnly({"radius", "length"});
-  const double radius = round.number("radius", kLength);
-  const double length = round.number("length", kLength);
+  const double radius = round.length("radius");
+  const double length = round.length("length");
   if (is_cone) {
     return {{ConeShape{radius, length}},
             coneMassProperties(checkedVolume(coneVolume(radius, length), round), radius, length)};

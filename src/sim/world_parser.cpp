@@ -89,16 +89,15 @@ HullScenario parseHull(const ConfigReader& reader, const ScenarioSource& source)
   if (reader.has("box")) {
     const ConfigReader box = reader.map("box");
     box.allowOnly({"size"});
-    hull.shape = BoxShape{box.vector("size", kLength)};
+    hull.shape = BoxShape{box.lengths("size")};
   } else if (reader.has("sphere")) {
     const ConfigReader sphere = reader.map("sphere");
     sphere.allowOnly({"radius"});
-    hull.shape = SphereShape{sphere.number("radius", kLength)};
+    hull.shape = SphereShape{sphere.length("radius")};
   } else if (reader.has("cylinder")) {
     const ConfigReader cylinder = reader.map("cylinder");
     cylinder.allowOnly({"radius", "length"});
-    hull.shape =
-        CylinderShape{cylinder.number("radius", kLength), cylinder.number("length", kLength)};
+    hull.shape = CylinderShape{cylinder.length("radius"), cylinder.length("length")};
   } else if (reader.has("mesh")) {
     hull.shape = parseMesh(reader.map("mesh"), source);
   } else {

@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
@@ -244,8 +245,8 @@ bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<B
   return enough;
 }
 
-void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
-                 std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records) {
+int World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
+                std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records) {
   ends_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyDrive& drive = drives[i];
@@ -257,10 +258,7 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
         },
         states[i]);
     extents_[i].travel = kTravelReserve * travelOf(i, states[i], ends_[i], rules_.step);
-  }
-  if (!std::all_of(ends_.begin(), ends_.end(), isInReach)) {
-    states.swap(ends_);  // it diverges: whoever looks at the states sees it
-    return;
+    if (!isInReach(ends_[i]) || !(extents_[i].travel <= kFarthest)) return static_cast<int>(i);
   }
   const std::size_t recorded = records.size();
   bool done = false;
@@ -278,6 +276,7 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
             });
   memory.swap(next_memory_);
   states.swap(ends_);
+  return kNone;
 }
 
 std::vector<World::Pair> World::allPairs(int body) const {

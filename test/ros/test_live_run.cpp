@@ -186,7 +186,7 @@ TEST(RunEvents, AMotionWithoutFiniteEnergyIsRefused) {
   SetState::Request far = stateRequest();
   far.pose.position.y = 1e200;
   EXPECT_EQ(refusal([&] { run.apply(setStateEvent(scenario, far)); }),
-            "pose.position: must be at most 1e100 m, of either sign");
+            "pose.position: must be at most 1e30 m, of either sign");
   EXPECT_EQ(run.simulation().hash(), before);
 }
 

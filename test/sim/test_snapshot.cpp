@@ -141,7 +141,8 @@ TEST(Snapshot, OneOfAnotherScenarioIsRefused) {
 TEST(Snapshot, OneThatWasChangedIsRefused) {
   const Scenario scenario = parsed(validScenario());
   const std::string changed = with(toSnapshot(underWay(scenario)), "tick: 350\n", "tick: 351\n");
-  EXPECT_NE(complaintAbout(changed, scenario).find("snap.yaml: hash: must be that of the state, "), std::string::npos);
+  EXPECT_NE(complaintAbout(changed, scenario).find("snap.yaml: hash: must be that of the state, "),
+            std::string::npos);
 }
 
 TEST(Snapshot, WhatIsNoSnapshotIsRefused) {

@@ -163,7 +163,7 @@ TEST_F(StatesCsv, ARunThatFailsLeavesNoFileThatLooksWhole) {
   {
     Simulation simulation(scenarioOf(oneCraftYaml()));
     StatesCsvWriter writer(path_, simulation.scenario());
-    for (int n = 0; n < 1000; ++n) writer.state(simulation);  // more than its buffer holds
+    for (int n = 0; n < 3000; ++n) writer.state(simulation);  // more than its buffer holds
   }
   EXPECT_EQ(contentOf(path_), "from an earlier run");
   EXPECT_TRUE(std::filesystem::exists(path_ + ".partial"));

@@ -20,7 +20,6 @@ extern const NumberRule kAnyNumber;
 extern const NumberRule kPositive;
 extern const NumberRule kNotNegative;
 extern const NumberRule kNotPositive;
-extern const NumberRule kLength;      // m, of a body: at most kFarthest
 extern const NumberRule kCoordinate;  // m: at most kFarthest, of either sign
 
 /// One map of a YAML tree, with the path by which the user knows it. Every reading function throws
@@ -50,6 +49,10 @@ class ConfigReader {
   std::int64_t wholeNumberOr(std::int64_t fallback, const char* key) const;
   /// Three numbers, each of which obeys the rule.
   Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
+  /// A length, m: greater than 0 and at most kFarthest.
+  double length(const char* key) const;
+  /// Three of them.
+  Vector3 lengths(const char* key) const;
   Vector3 vectorOr(const Vector3& fallback, const char* key,
                    const NumberRule& rule = kAnyNumber) const;
   bool flagOr(bool fallback, const char* key) const;
