@@ -20,8 +20,8 @@ bool isRotation(const Quaternion& q_WB) {
   // Components beyond 1e154 have an infinite norm, and end as 0 when they are divided by it.
   return std::abs(squaredNorm(q_WB) - 1.0) < kUnitLength;
 }
-bool isRotation(const Matrix3& /*R_WB*/) {
-  return true;  // nearestRotation() returns nothing else
+bool isRotation(const Matrix3& R_WB) {
+  return !std::isnan(R_WB(0, 0));  // renormalized() gives a rotation, or NaN
 }
 
 template <class Orientation>

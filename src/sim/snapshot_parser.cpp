@@ -148,14 +148,14 @@ Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick 
 }
 
 CommandLog parseCommands(const ConfigReader& reader, const Scenario& scenario, Tick earliest) {
-  CommandLog log;
-  if (!reader.has("commands")) return log;
+  CommandLog commands;
+  if (!reader.has("commands")) return commands;
   for (const ConfigReader& entry : reader.list("commands")) {
     const Command command = parseCommand(entry, scenario, earliest);
-    log.push(command);
+    commands.push(command);
     earliest = command.tick;
   }
-  return log;
+  return commands;
 }
 
 ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario) {

@@ -230,7 +230,8 @@ TEST_F(Simulate, EveryErrorOfARequestNamesWhatIsWrong) {
   EXPECT_EQ(errorOf(request),
             "--output = out.txt: must end in .csv or .bag, or be - for CSV on the standard output");
   request.output = folder_.file("");
-  EXPECT_NE(errorOf(request).find("must end in .csv or .bag"), std::string::npos);
+  EXPECT_NE(errorOf(request).find("it is a directory, must be a regular file"), std::string::npos);
+  request.output = folder_.file("out.csv");
   request.scenario = folder_.file("missing.yaml");
   EXPECT_EQ(errorOf(request), request.scenario + ": there is no such file");
 }

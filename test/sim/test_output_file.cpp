@@ -229,10 +229,14 @@ TEST_F(Outputs, AFileThatIsReadOnlyIsNotReplaced) {
   const bool is_root = ::geteuid() == 0;  // who may write everything
   constexpr uid_t kNobody = 65534;
   ::chmod(folder_.file("").c_str(), 0777);
-  if (is_root) ASSERT_EQ(::seteuid(kNobody), 0);
+  if (is_root) {
+    ASSERT_EQ(::seteuid(kNobody), 0);
+  }
   EXPECT_EQ(errorOfWriting(free_), free_ + ": cannot be written: Permission denied");
   EXPECT_EQ(contentOf(free_), "old");
-  if (is_root) ASSERT_EQ(::seteuid(0), 0);
+  if (is_root) {
+    ASSERT_EQ(::seteuid(0), 0);
+  }
 }
 
 TEST_F(Outputs, APartialFileThatHoldsSomethingStaysAndAnEmptyOneGoes) {

@@ -308,7 +308,8 @@ TEST_P(SnapshotFields, EachBadWordIsRefusedOrChangesNothing) {
 
 TEST_P(SnapshotFields, EachPartOfATextIsRefused) {
   const std::string text = toSnapshot(simulation_);
-  for (std::size_t length = 0; length < text.size(); length += 1 + length % 5) {
+  // What ends in its last line break says the same without it.
+  for (std::size_t length = 0; length < text.size() - 1; length += 1 + length % 5) {
     EXPECT_EQ(outcomeOf(scenario_, text.substr(0, length)).rfind("refused: ", 0), 0U) << length;
   }
   for (const char* more : {"x", "x: 1\n", "tick: 3\n", "---\ntick: 3\n", "  more of the scenario\n",
