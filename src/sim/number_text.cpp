@@ -1,11 +1,9 @@
 #include "hovercraft_sim/sim/number_text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
-#include <locale.h>
 
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/time.h"
@@ -18,52 +16,11 @@ constexpr int kMostDigits = 16;       // of kMaxNanoseconds
 constexpr long kMostShift =
     1000000;  // an exponent beyond it is of 0, or leaves nothing of a number
 
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// A decimal number taken apart: ± 0.d1 d2 d3 ... · 10^point
 struct Decimal {
   bool is_negative = false;
   std::string digits;
   int point = 0;
-};
-
-class DecimalScanner {
- public:
-  explicit DecimalScanner(const std::string& text) : text_(text) {}
-
-  /// True if the whole text is a decimal number.
-  bool scan() {
-    skipSign();
-    const std::size_t whole = skipDigits();
-    std::size_t fraction = 0;
-    if (at('.')) {
-      ++position_;
-      fraction = skipDigits();
-    }
-    if (whole + fraction == 0) return false;
-    if (at('e') || at('E')) {
-      ++position_;
-      skipSign();
-      if (skipDigits() == 0) return false;
-    }
-    return position_ == text_.size();
-  }
-
- private:
-  bool at(char c) const { return position_ < text_.size() && text_[position_] == c; }
-  void skipSign() {
-    if (at('+') || at('-')) ++position_;
-  }
-  std::size_t skipDigits() {
-    const std::size_t begin = position_;
-    while (position_ < text_.size() && isDigit(text_[position_])) ++position_;
-    return position_ - begin;
-  }
-
-  const std::string& text_;
-  std::size_t position_ = 0;
 };
 
 Decimal takenApart(const std::string& text) {
@@ -139,25 +96,7 @@ void appendFraction(fmt::memory_buffer& buffer, const char* begin, const char* e
   buffer.append(begin, end);
 }
 
-bool isNotFiniteWord(std::string word) {
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (!word.empty() && (word.front() == '+' || word.front() == '-')) word.erase(0, 1);
-  if (!word.empty() && word.front() == '.') word.erase(0, 1);
-  return word == "nan" || word == "inf" || word == "infinity";
-}
-
 }  // namespace
-
-ParsedNumber parseNumber(const std::string& text) {
-  if (!DecimalScanner(text).scan()) {
-    return {isNotFiniteWord(text) ? NumberSyntax::kNotFinite : NumberSyntax::kNoNumber, 0.0};
-  }
-  static const locale_t classic_locale = newlocale(LC_ALL_MASK, "C", nullptr);
-  const double value = strtod_l(text.c_str(), nullptr, classic_locale);
-  if (!std::isfinite(value)) return {NumberSyntax::kNotFinite, 0.0};
-  return {NumberSyntax::kNumber, value};
-}
 
 std::int64_t parseNanoseconds(const std::string& text) {
   const Decimal decimal = takenApart(text);

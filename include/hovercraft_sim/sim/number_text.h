@@ -4,20 +4,9 @@
 #include <fmt/format.h>
 #include <string>
 
+#include "hovercraft_sim/math/parse_number.h"
+
 namespace hovercraft {
-
-enum class NumberSyntax { kNumber, kNotFinite, kNoNumber };
-
-/// What a text says as a decimal number.
-struct ParsedNumber {
-  NumberSyntax syntax = NumberSyntax::kNoNumber;
-  double value = 0.0;  // of kNumber: the nearest double; else 0
-};
-
-/// Reads a decimal number such as -1, .5 or 2.5e-3, whatever the locale. Words for infinity or NaN
-/// (with a sign, with YAML's leading point) and numbers beyond the range of a double are
-/// kNotFinite; anything else, also white space, is kNoNumber.
-ParsedNumber parseNumber(const std::string& text);
 
 /// Seconds as decimal text to whole nanoseconds, exactly; a half and more of a nanosecond counts
 /// as one, so that a text with 17 digits of a double's time gives the time that was meant.
