@@ -136,14 +136,14 @@ MassProperties coneMassProperties(double mass, double radius, double length) {
           diagonal(across, across, 0.3 * mass * (radius * radius))};
 }
 
-MassProperties meshMassProperties(const TriangleMesh& mesh, double mass) {
+MassProperties meshMassProperties(const PolygonMesh& mesh, double mass) {
   requirePositive(mass, "mass", "kg");
   const VolumeMoments moments = volumeMoments(mesh);
   return {mass, moments.centroid,
           (mass / moments.volume) * inertiaFromSecondMoments(moments.second_about_centroid)};
 }
 
-MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh, double density) {
+MassProperties meshMassPropertiesOfDensity(const PolygonMesh& mesh, double density) {
   requirePositive(density, "density", "kg/m^3");
   const VolumeMoments moments = volumeMoments(mesh);
   return {density * moments.volume, moments.centroid,

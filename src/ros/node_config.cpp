@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <optional>
 
+#include <ros/console.h>
 #include <ros/package.h>
 
 #include "hovercraft_sim/ros/vehicle_messages.h"
@@ -98,9 +99,10 @@ NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node
                     "diagnostic_period"});
   NodeConfig config;
   config.scenario = hovercraft::parseScenario(
-      parameters["scenario"], {node_name + "/scenario", "", [](const std::string& package) {
-                                 return ros::package::getPath(package);
-                               }});
+      parameters["scenario"],
+      {node_name + "/scenario", "",
+       [](const std::string& package) { return ros::package::getPath(package); },
+       [](const std::string& note) { ROS_WARN("%s", note.c_str()); }});
   config.publish_every = publishPeriod(reader, config.scenario.stepSize());
   config.world_frame = reader.has("world_frame") ? reader.text("world_frame") : kDefaultWorldFrame;
   if (config.world_frame.front() == '/') {

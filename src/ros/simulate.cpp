@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -87,7 +88,8 @@ void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scena
 
 Scenario loadScenarioFile(const std::string& path) {
   return hovercraft::loadScenario(
-      path, [](const std::string& package) { return ros::package::getPath(package); });
+      path, [](const std::string& package) { return ros::package::getPath(package); },
+      [](const std::string& note) { std::cerr << note << '\n'; });
 }
 
 std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,

@@ -95,6 +95,10 @@ bool ConfigReader::has(const char* key) const {
   return tree[key].IsDefined();
 }
 
+bool ConfigReader::isMap(const char* key) const {
+  return required(key).IsMap();
+}
+
 YAML::Node ConfigReader::required(const std::string& key) const {
   const YAML::Node& tree = node_;
   const YAML::Node found = tree[key];
@@ -169,6 +173,15 @@ Vector3 ConfigReader::vector(const char* key, const NumberRule& rule) const {
 Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,
                                const NumberRule& rule) const {
   return has(key) ? vector(key, rule) : fallback;
+}
+
+Vector3 ConfigReader::numberOrVector(const char* key, const NumberRule& rule) const {
+  const YAML::Node node = required(key);
+  if (node.IsScalar()) return Vector3::Constant(numberAt(node, key, rule));
+  if (!node.IsSequence() || node.size() != 3) {
+    fail(key, "must be a number or a list of three numbers");
+  }
+  return vector(key, rule);
 }
 
 bool ConfigReader::flagOr(bool fallback, const char* key) const {

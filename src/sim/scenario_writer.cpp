@@ -5,6 +5,7 @@
 #include <string>
 #include <variant>
 
+#include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/world_parser.h"
@@ -34,7 +35,8 @@ struct ShapeWriter {
   std::string operator()(const ConeShape& cone) const {
     return "cone: {radius: " + text(cone.radius) + ", length: " + text(cone.length) + "}";
   }
-  std::string operator()(const MeshShape& mesh) const { return "mesh: {file: " + mesh.file + "}"; }
+  /// A craft with such a part is written by numbers.
+  std::string operator()(const MeshShape& /*mesh*/) const { return ""; }
 };
 
 std::string massText(const VehicleScenario& vehicle) {
@@ -79,6 +81,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
   std::string yaml = fmt::format("  {}:\n{}", vehicle.name, massText(vehicle));
   if (has_engines) yaml += engineText(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
+  if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";
   yaml += fmt::format(
       "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}}}\n",
       text(vehicle.drag.linear), text(vehicle.drag.quadratic), text(vehicle.drag.angular_linear),

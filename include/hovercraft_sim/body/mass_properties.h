@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/geometry/polygon_mesh.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -36,9 +36,9 @@ MassProperties coneMassProperties(double mass, double radius, double length);
 
 /// The homogeneous solid inside a closed surface (it passes checkClosed()); H is the frame of the
 /// mesh. @param mass kg. @throws std::invalid_argument if it is not positive and finite.
-MassProperties meshMassProperties(const TriangleMesh& mesh, double mass);
+MassProperties meshMassProperties(const PolygonMesh& mesh, double mass);
 /// Likewise. @param density kg/m³.
-MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh, double density);
+MassProperties meshMassPropertiesOfDensity(const PolygonMesh& mesh, double density);
 
 /// The same solid in a frame G from which H is turned by R_GH and moved by p_GH.
 MassProperties placed(const MassProperties& part, const Matrix3& R_GH, const Vector3& p_GH);
