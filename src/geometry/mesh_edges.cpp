@@ -67,18 +67,18 @@ EdgeReport reportOnEdges(const PolygonMesh& mesh) {
   return report;
 }
 
-std::string coordinates(const Vector3& point) {
-  return fmt::format("({:.12g}, {:.12g}, {:.12g})", point.x(), point.y(), point.z());
-}
-
 std::string describe(const PolygonMesh& mesh, const BadEdges& bad, const char* kind) {
   return fmt::format("{} {} edge{}, the first from {} to {} m", bad.count, kind,
                      bad.count == 1 ? "" : "s",
-                     coordinates(mesh.vertices[static_cast<std::size_t>(bad.first.low)]),
-                     coordinates(mesh.vertices[static_cast<std::size_t>(bad.first.high)]));
+                     pointText(mesh.vertices[static_cast<std::size_t>(bad.first.low)]),
+                     pointText(mesh.vertices[static_cast<std::size_t>(bad.first.high)]));
 }
 
 }  // namespace
+
+std::string pointText(const Vector3& point) {
+  return fmt::format("({:.12g}, {:.12g}, {:.12g})", point.x(), point.y(), point.z());
+}
 
 std::vector<MeshSide> sortedSides(const PolygonMesh& mesh) {
   std::size_t count = 0;

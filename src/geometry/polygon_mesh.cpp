@@ -19,10 +19,6 @@ namespace {
   throw std::invalid_argument(name + ": " + reason);
 }
 
-std::string coordinates(const Vector3& point) {
-  return fmt::format("({:.12g}, {:.12g}, {:.12g})", point.x(), point.y(), point.z());
-}
-
 /// What a shell encloses, and the box around it.
 struct Solid {
   double volume = 0.0;       // m³
@@ -133,7 +129,7 @@ void checkShells(const PolygonMesh& mesh, const std::string& name) {
            fmt::format(
                "the shell with the vertex {} m has the volume {:.12g} m^3 and lies {}: a shell "
                "must face outwards, the wall of a cavity inwards",
-               coordinates(shells[i].vertices.front()), solids[i].volume,
+               pointText(shells[i].vertices.front()), solids[i].volume,
                is_inside ? "inside another" : "in no other"));
   }
 }
@@ -171,7 +167,7 @@ void checkClosed(const PolygonMesh& mesh, const std::string& name) {
   if (mesh.faces.empty()) refuse(name, "no faces");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (mesh.vertices[i].allFinite()) continue;
-    refuse(name, fmt::format("vertex {} is not finite: {}", i, coordinates(mesh.vertices[i])));
+    refuse(name, fmt::format("vertex {} is not finite: {}", i, pointText(mesh.vertices[i])));
   }
   checkEdges(mesh, name);
   checkVolume(measure(mesh), mesh.rounding, name);

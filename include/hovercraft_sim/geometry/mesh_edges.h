@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hovercraft_sim/geometry/polygon_mesh.h"
+#include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
 
@@ -14,6 +15,9 @@ struct MeshSide {
   bool forward;  // from low to high
   int face;      // index
 };
+
+/// "(x, y, z)" with 12 digits, for messages.
+std::string pointText(const Vector3& point);
 
 /// The sides of all faces, those of one edge next to each other, in the order of their vertices.
 std::vector<MeshSide> sortedSides(const PolygonMesh& mesh);
