@@ -85,10 +85,10 @@ void cutBentFaces(LoadedMesh& loaded, const std::string& name) {
   }
   if (bent == 0) return;
   loaded.mesh.faces = std::move(faces);
-  loaded.notes.push_back(fmt::format(
-      "{}: {} of its polygons are not plane, the worst by {:.3g} m: they are taken as triangles "
-      "from their first vertex",
-      name, bent, worst));
+  loaded.notes.push_back(
+      fmt::format("{}: polygons that are not plane: {}, the worst by {:.3g} m; they are taken as "
+                  "triangles from their first vertex",
+                  name, bent, worst));
 }
 
 void closeByWelding(LoadedMesh& loaded, const std::string& name) {
@@ -96,9 +96,8 @@ void closeByWelding(LoadedMesh& loaded, const std::string& name) {
   if (!welded) return;
   loaded.mesh = std::move(welded->mesh);
   loaded.notes.push_back(
-      fmt::format("{}: {} vertices on open edges were joined with others up to {:.3g} m away, "
-                  "which closes the surface",
-                  name, welded->joined, welded->farthest));
+      fmt::format("{}: closed by joining vertices on open edges: {}, up to {:.3g} m apart", name,
+                  welded->joined, welded->farthest));
 }
 
 }  // namespace
@@ -114,11 +113,10 @@ LoadedMesh parseSurface(const std::string& content, MeshFormat format, const Vec
     loaded.mesh = joinedVertices(stl.mesh);
     if (stl.trailing_bytes > 0) {
       loaded.notes.push_back(
-          fmt::format("{}: {} bytes behind its triangles were left out", name, stl.trailing_bytes));
+          fmt::format("{}: bytes left out behind its triangles: {}", name, stl.trailing_bytes));
     }
   }
   if (loaded.mesh.faces.empty()) throw std::invalid_argument(name + ": no faces");
-  cutBentFaces(loaded, name);
   return loaded;
 }
 
@@ -126,6 +124,7 @@ LoadedMesh parseClosedMesh(const std::string& content, MeshFormat format, const 
                            const std::string& name) {
   const FloatingPointEnvironment environment;
   LoadedMesh loaded = parseSurface(content, format, scale, name);
+  cutBentFaces(loaded, name);
   closeByWelding(loaded, name);
   checkClosed(loaded.mesh, name);
   return loaded;

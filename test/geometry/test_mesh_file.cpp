@@ -150,7 +150,7 @@ TEST(MeshFile, APolygonThatIsNotPlaneIsCutFromItsFirstVertexAndThatIsSaid) {
     EXPECT_NEAR(signedVolume(loaded.mesh), volume, 1e-15) << top;
     EXPECT_EQ(loaded.mesh.faces.size(), 7U);
     ASSERT_EQ(loaded.notes.size(), 1U);
-    EXPECT_EQ(loaded.notes[0].find("it: 1 of its polygons are not plane, the worst by 0.06"), 0U)
+    EXPECT_EQ(loaded.notes[0].find("it: polygons that are not plane: 1, the worst by 0.06"), 0U)
         << loaded.notes[0];
   }
 }
@@ -172,8 +172,7 @@ TEST(MeshFile, NearVerticesAreJoinedAndThatIsSaid) {
   EXPECT_EQ(loaded.mesh.vertices.size(), 4U);
   ASSERT_EQ(loaded.notes.size(), 1U);
   EXPECT_EQ(loaded.notes[0],
-            "it: 1 vertices on open edges were joined with others up to 1e-05 m away, which closes "
-            "the surface");
+            "it: closed by joining vertices on open edges: 1, up to 1e-05 m apart");
   EXPECT_EQ(parseSurface(text, MeshFormat::kStl, Vector3::Ones(), "it").mesh.vertices.size(), 5U);
   text.replace(text.find("vertex 1.00001 0 0"), 14, "vertex 1.00011");
   EXPECT_NE(testing::messageOfParsing(text, MeshFormat::kStl).find("it: not closed: "),

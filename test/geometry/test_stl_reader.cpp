@@ -57,8 +57,7 @@ TEST(StlReader, FewerThanFiftyBytesMayFollowAndThatIsSaid) {
     const LoadedMesh loaded = parsed(stlBytes(box()) + std::string(count, 'x'));
     EXPECT_EQ(signedVolume(loaded.mesh), 6.0);
     ASSERT_EQ(loaded.notes.size(), 1U);
-    EXPECT_EQ(loaded.notes[0],
-              "it: " + std::to_string(count) + " bytes behind its triangles were left out");
+    EXPECT_EQ(loaded.notes[0], "it: bytes left out behind its triangles: " + std::to_string(count));
   }
   EXPECT_EQ(messageOfParsing(stlBytes(box()) + std::string(50, 'x'), MeshFormat::kStl),
             "it: no STL: the 12 triangles that its header counts take 684 bytes, it has 734; and "

@@ -122,7 +122,7 @@ TEST(MeshParser, WhatWasMadeOfAFileIsSaidWithTheScenario) {
       validScenario(), kMassByNumbers, "    parts: [{mesh: {file: " + path + "}, mass: 6}]\n"));
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_EQ(notes[0],
-            "test.yaml: mesh file '" + path + "': 4 bytes behind its triangles were left out");
+            "test.yaml: mesh file '" + path + "': bytes left out behind its triangles: 4");
 }
 
 TEST(MeshParser, AVisualIsAPathOrAUrl) {

@@ -21,8 +21,7 @@ enum class MeshFormat { kObj, kStl };
 /// What the formats may hold: obj_reader.h, stl_reader.h.
 ///
 /// Coordinates are the nearest doubles of the decimal numbers, times the scale. Vertices at equal
-/// positions become one, as STL repeats them. A polygon that is not plane (kMeshDentDepth of the
-/// extent) is cut into triangles from its first vertex, with a note.
+/// positions become one, as STL repeats them.
 /// @param scale of the coordinates to m along x, y and z, each > 0.
 /// @throws std::invalid_argument naming the file, and the line or triangle, if its name does not
 /// end in .obj or .stl (in any case), it is no regular file of at most kMostMeshBytes, breaks a
@@ -30,8 +29,9 @@ enum class MeshFormat { kObj, kStl };
 HOVERCRAFT_PUBLIC LoadedMesh loadSurface(const std::string& path,
                                          const Vector3& scale = Vector3::Ones());
 
-/// The same of a body. If edges are open that joining near vertices closes (kWeldDistance), that is
-/// done, with a note.
+/// The same of a body. A polygon that is not plane (by kMeshDentDepth of the extent) is cut into
+/// triangles from its first vertex, with a note. If edges are open that joining near vertices
+/// closes (kWeldDistance), that is done, with a note.
 /// @returns a mesh that passes checkClosed().
 /// @throws std::invalid_argument naming the file also if the surface is not closed.
 HOVERCRAFT_PUBLIC LoadedMesh loadClosedMesh(const std::string& path,
