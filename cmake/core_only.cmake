@@ -9,15 +9,13 @@ include_directories(include)
 include(cmake/hovercraft_core.cmake)
 
 enable_testing()
-# They reach what the shared library keeps to itself: the same objects.
-add_library(${PROJECT_NAME}_test_objects STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:hovercraft_core_objects>)
-get_target_property(core_libraries hovercraft_core_objects LINK_LIBRARIES)
-target_link_libraries(${PROJECT_NAME}_test_objects ${core_libraries})
 foreach(module architecture math geometry body hovercraft collision contact world sim determinism)
   file(GLOB test_sources CONFIGURE_DEPENDS test/${module}/test_*.cpp)
   set(target ${PROJECT_NAME}_test_${module})
   add_executable(${target} ${test_sources} test/main.cpp)
-  target_link_libraries(${target} ${PROJECT_NAME}_test_objects GTest::GTest Threads::Threads)
+  # They reach what the shared library keeps to itself: its objects.
+  target_link_libraries(${target} hovercraft_core_objects GTest::GTest Threads::Threads)
+  hovercraft_unity(${target} tests ${test_sources})
   add_test(NAME ${module} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 endforeach()
 target_sources(${PROJECT_NAME}_test_determinism PRIVATE test/determinism/recorded_runs.cpp)

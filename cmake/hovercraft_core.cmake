@@ -1,6 +1,8 @@
 # The ROS-free core: what it needs, how it is compiled, and the targets hovercraft_core_objects and hovercraft_core. The package
 # includes this, and so does test/determinism, which builds the core without ROS; both find Eigen and Boost before.
 
+include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
+
 option(HOVERCRAFT_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 option(HOVERCRAFT_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
 
@@ -38,6 +40,7 @@ get_filename_component(hovercraft_root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 set(hovercraft_core_sources)
 foreach(module math geometry body hovercraft collision contact world sim)
   file(GLOB module_sources CONFIGURE_DEPENDS ${hovercraft_root}/src/${module}/*.cpp)
+  set(sources_of_${module} ${module_sources})
   list(APPEND hovercraft_core_sources ${module_sources})
 endforeach()
 # hovercraft_shared_library(NAME LIBRARY...): NAME_objects, compiled once from the sources in NAME_sources, and of them the library NAME.
@@ -55,3 +58,6 @@ function(hovercraft_shared_library name)
 endfunction()
 
 hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt ${qhull_library})
+foreach(module math geometry body hovercraft collision contact world sim)
+  hovercraft_unity(hovercraft_core_objects ${module} ${sources_of_${module}})
+endforeach()

@@ -133,6 +133,9 @@ class Terminal:
             'LANG': 'C.UTF-8', 'PYTHONUNBUFFERED': '1', 'PYTHONDONTWRITEBYTECODE': '1'}
         cache = (build / 'CMakeCache.txt').read_text()
         compiler = re.search(r'^CMAKE_CXX_COMPILER:\w+=(.*)$', cache, re.MULTILINE).group(1)
+        # Else it would have other object files.
+        unity = re.search(r'^HOVERCRAFT_UNITY:BOOL=(.*)$', cache, re.MULTILINE)
+        self.environment['HOVERCRAFT_UNITY'] = unity.group(1) if unity else 'OFF'
         self.write_program('compiler', COMPILER.replace('OBJECTS', str(build)).replace('REAL_COMPILER', compiler))
         self.write_program('sudo', SUDO)
 

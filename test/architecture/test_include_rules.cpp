@@ -49,7 +49,7 @@ const std::map<std::string, Rule>& rules() {
        {{"math", "geometry", "body", "hovercraft", "collision", "contact", "world"},
         {"fmt/", "yaml-cpp/"}}},
       {"ros", {{"math", "geometry", "body", "hovercraft", "sim"}, of_ros}},
-      {"nodes", {{"sim", "ros"}, of_ros}},
+      {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
       {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
   return table;
