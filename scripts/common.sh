@@ -49,11 +49,11 @@ system_family() {
 packages_for() {
   local common
   case "$1" in
-    core) common='g++ make cmake pkg-config libassimp-dev libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
+    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
     build) common="$(packages_for core) libboost-program-options-dev" ;;
     fast) common='ccache ninja-build' ;;
-    test) common="$(packages_for clang) $(packages_for fast) libbenchmark-dev libgtest-dev" ;;
+    test) common="$(packages_for clang) $(packages_for fast) libbenchmark-dev libgtest-dev pkg-config" ;;
     # The versions that decide; clang-tidy 22 takes half the time of 14 (scripts/clang_tidy.py).
     lint) common='clang-format-14 clang-tidy-22 catkin-lint' ;;
     core_test) common='libgtest-dev' ;;
@@ -141,8 +141,8 @@ explain_unknown_system() {
   fi
   cat >&2 << 'TEXT'
 This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install these by hand, then run this again:
-  a C++17 compiler, make, CMake 3.16, pkg-config, Python 3 with matplotlib
-  assimp, Boost (program_options), Eigen 3.3, fmt, qhull, yaml-cpp (with their headers)
+  a C++17 compiler, make, CMake 3.16, Python 3 with matplotlib
+  Boost (program_options), Eigen 3.3, fmt, qhull, yaml-cpp (with their headers)
   ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, std_msgs, std_srvs, rosgraph_msgs,
   visualization_msgs, diagnostic_updater, dynamic_reconfigure, message_generation, roslaunch, rosservice, rosbash, rosout; for the
   tests also rostest, rostopic, rosnode, rosmsg, GoogleTest, Google Benchmark, clang with its sanitizers' runtime;

@@ -272,12 +272,12 @@ void run(int n, bool coherent) {
 }
 
 /// The triangles of a body, fans of its faces.
-hovercraft::TriangleMesh meshOf(const ConvexPolyhedron& body) {
-  hovercraft::TriangleMesh mesh{body.vertices(), {}};
+hovercraft::PolygonMesh meshOf(const ConvexPolyhedron& body) {
+  hovercraft::PolygonMesh mesh{body.vertices(), {}};
   for (int f = 0; f < body.faceCount(); ++f) {
     const auto ring = body.verticesOf({hovercraft::FeatureKind::kFace, f});
     for (std::size_t i = 2; i < ring.size(); ++i) {
-      mesh.triangles.push_back({ring[0], ring[i - 1], ring[i]});
+      mesh.faces.push_back({ring[0], ring[i - 1], ring[i]});
     }
   }
   return mesh;
@@ -296,7 +296,7 @@ void reportBuild(int n) {
   }
   std::sort(times.begin(), times.end());
   fmt::print(stderr, "{} vertices: built from {} triangles in {:.1f} ms, {} bytes a vertex\n", n,
-             mesh.triangles.size(), 1e-6 * times[times.size() / 2],
+             mesh.faces.size(), 1e-6 * times[times.size() / 2],
              bytes / static_cast<std::size_t>(n));
 }
 

@@ -145,7 +145,7 @@ MassProperties coneMassProperties(double mass, double radius, double length) {
           diagonal(across, across, 0.3 * mass * (radius * radius))};
 }
 
-MassProperties meshMassProperties(const TriangleMesh& mesh, double mass) {
+MassProperties meshMassProperties(const PolygonMesh& mesh, double mass) {
   const FloatingPointEnvironment environment;
   requirePositive(mass, "mass", "kg");
   const VolumeMoments moments = volumeMoments(mesh);
@@ -153,7 +153,7 @@ MassProperties meshMassProperties(const TriangleMesh& mesh, double mass) {
           (mass / moments.volume) * inertiaFromSecondMoments(moments.second_about_centroid)};
 }
 
-MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh, double density) {
+MassProperties meshMassPropertiesOfDensity(const PolygonMesh& mesh, double density) {
   const FloatingPointEnvironment environment;
   requirePositive(density, "density", "kg/m^3");
   const VolumeMoments moments = volumeMoments(mesh);

@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "hovercraft_sim/geometry/mesh_edges.h"
 #include "hovercraft_sim/geometry/polyhedron_builder.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
@@ -204,61 +205,38 @@ double depthUnder(const ConvexPolyhedron& hull, const Vector3& p, double enough,
   return least;
 }
 
-/// One side of a triangle.
-struct Side {
-  int low;  // its vertices, ordered
-  int high;
-  int opposite;       // the third vertex
-  std::size_t owner;  // the triangle
-};
-
-/// The sides of all triangles, those of one edge next to each other: by counting for the lower
-/// vertex, by sorting the few at each.
-std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-  std::vector<std::size_t> begins(mesh.vertices.size() + 1, 0);
-  for (const auto& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) ++begins[at(std::min(t[k], t[(k + 1) % 3])) + 1];
-  }
-  for (std::size_t v = 1; v < begins.size(); ++v) begins[v] += begins[v - 1];
-  std::vector<Side> sides(3 * mesh.triangles.size());
-  std::vector<std::size_t> ends(begins.begin(), begins.end() - 1);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& t = mesh.triangles[i];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
-      sides[ends[at(low)]++] = {low, high, t[(k + 2) % 3], i};
-    }
-  }
-  const auto first = sides.begin();
-  for (std::size_t v = 0; v < ends.size(); ++v) {
-    std::sort(first + static_cast<std::ptrdiff_t>(begins[v]),
-              first + static_cast<std::ptrdiff_t>(ends[v]), [](const Side& a, const Side& b) {
-                return a.high != b.high ? a.high < b.high : a.owner < b.owner;
-              });
-  }
-  return sides;
-}
-
-/// Twice the area of a triangle times its normal.
-Vector3 areaOf(const TriangleMesh& mesh, const std::array<int, 3>& t) {
-  const Vector3& a = mesh.vertices[at(t[0])];
-  return cross(mesh.vertices[at(t[1])] - a, mesh.vertices[at(t[2])] - a);
+/// Whether the surface bends inward at an edge of two faces, which may be rounding.
+bool bendsInward(const PolygonMesh& mesh, const std::vector<Vector3>& areas, const MeshSide& back,
+                 const MeshSide& forth) {
+  const Vector3& a = mesh.vertices[at(back.low)];
+  const Vector3 along = mesh.vertices[at(back.high)] - a;
+  if (dot(cross(areas[at(forth.face)], areas[at(back.face)]), along) < 0.0) return true;
+  // The normal of a sliver is lost in rounding, its third vertex is not.
+  const auto rises = [&](const MeshSide& side, const MeshSide& over) {
+    const std::vector<int>& face = mesh.faces[at(side.face)];
+    if (face.size() != 3) return false;
+    const int third = (face[0] + face[1] + face[2]) - (side.low + side.high);
+    return dot(areas[at(over.face)], mesh.vertices[at(third)] - a) > 0.0;
+  };
+  return rises(back, forth) || rises(forth, back);
 }
 
 /// Whether an edge at which the surface bends inward lies deeper than `slack` (m) under the surface
 /// of the hull. A surface of one piece without such an edge is convex, and every dent has one: at
 /// its bottom, or where it reaches the surface again.
-bool hasDent(const TriangleMesh& mesh, const ConvexPolyhedron& hull, double slack) {
-  const std::vector<Side> sides = sortedSides(mesh);
+bool hasDent(const PolygonMesh& mesh, const ConvexPolyhedron& hull, double slack) {
+  const std::vector<MeshSide> sides = sortedSides(mesh);
+  std::vector<Vector3> areas;
+  areas.reserve(mesh.faces.size());
+  for (const std::vector<int>& face : mesh.faces) areas.push_back(twiceArea(mesh, face));
   std::int32_t face = 0;
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    const Side& side = sides[i];
-    const Side& other = sides[i + 1];
+    const MeshSide& side = sides[i];
+    const MeshSide& other = sides[i + 1];
     if (side.low != other.low || side.high != other.high) continue;
+    if (!bendsInward(mesh, areas, side, other)) continue;
     const Vector3& a = mesh.vertices[at(side.low)];
     const Vector3& b = mesh.vertices[at(side.high)];
-    const Vector3 normal = areaOf(mesh, mesh.triangles[side.owner]);
-    if (!(dot(normal, mesh.vertices[at(other.opposite)] - a) > 0.0)) continue;
     for (const Vector3& p : {a, b, Vector3(0.5 * (a + b))}) {
       if (depthUnder(hull, p, slack, face) > slack) return true;
     }
@@ -266,36 +244,38 @@ bool hasDent(const TriangleMesh& mesh, const ConvexPolyhedron& hull, double slac
   return false;
 }
 
-/// The greatest height of a vertex over the plane of a triangle.
+/// The greatest height of a vertex over the plane of a face.
 struct Outside {
-  double height = 0.0;  // m
-  int vertex = 0;       // of the hull
-  std::array<int, 3> triangle{};
+  double height = 0.0;   // m
+  int vertex = 0;        // of the hull
+  std::size_t face = 0;  // of the mesh
 };
 
-Outside worstVertex(const TriangleMesh& mesh, const ConvexPolyhedron& hull) {
+Outside worstVertex(const PolygonMesh& mesh, const ConvexPolyhedron& hull) {
   Outside worst;
-  for (const auto& t : mesh.triangles) {
-    const Vector3 normal = areaOf(mesh, t);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Vector3 normal = twiceArea(mesh, mesh.faces[f]);
     const double area = norm(normal);
     if (!(area > 0.0)) continue;
     const int vertex = hull.supportVertex(normal);
-    const double height = dot(normal, hull.vertex(vertex) - mesh.vertices[at(t[0])]) / area;
-    if (height > worst.height) worst = {height, vertex, t};
+    const Vector3& on_plane = mesh.vertices[at(mesh.faces[f][0])];
+    const double height = dot(normal, hull.vertex(vertex) - on_plane) / area;
+    if (height > worst.height) worst = {height, vertex, f};
   }
   return worst;
 }
 
-[[noreturn]] void refuseMesh(const TriangleMesh& mesh, const ConvexPolyhedron& hull,
+[[noreturn]] void refuseMesh(const PolygonMesh& mesh, const ConvexPolyhedron& hull,
                              const std::string& name) {
   const Outside worst = worstVertex(mesh, hull);
   const Vector3& p = hull.vertex(worst.vertex);
   const auto place = std::find(mesh.vertices.begin(), mesh.vertices.end(), p);
+  const std::vector<int>& face = mesh.faces[worst.face];
   throw std::invalid_argument(fmt::format(
-      "{}: is not convex: vertex {} at ({}, {}, {}) lies {} m outside the plane of the triangle of "
-      "vertices {}, {}, {} (hull: true takes the convex hull instead)",
-      name, place - mesh.vertices.begin(), p.x(), p.y(), p.z(), worst.height, worst.triangle[0],
-      worst.triangle[1], worst.triangle[2]));
+      "{}: is not convex: vertex {} at ({}, {}, {}) lies {} m outside the plane of the face of "
+      "vertices {}, {}, {}{} (hull: true takes the convex hull instead)",
+      name, place - mesh.vertices.begin(), p.x(), p.y(), p.z(), worst.height, face[0], face[1],
+      face[2], face.size() > 3 ? ", ..." : ""));
 }
 
 struct Extent {
@@ -342,7 +322,7 @@ ConvexPolyhedron convexHull(const std::vector<Vector3>& points, const std::strin
   }
 }
 
-ConvexPolyhedron polyhedronFromMesh(const TriangleMesh& mesh, NonConvexMesh choice,
+ConvexPolyhedron polyhedronFromMesh(const PolygonMesh& mesh, NonConvexMesh choice,
                                     const std::string& name) {
   const FloatingPointEnvironment environment;
   ConvexPolyhedron hull = convexHull(mesh.vertices, name);

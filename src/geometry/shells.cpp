@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 
 #include "hovercraft_sim/math/constants.h"
 
@@ -43,43 +44,49 @@ double signedSolidAngle(const Vector3& a, const Vector3& b, const Vector3& c) {
 
 }  // namespace
 
-std::vector<TriangleMesh> shellsOf(const TriangleMesh& mesh) {
+std::vector<PolygonMesh> shellsOf(const PolygonMesh& mesh) {
   Groups groups(mesh.vertices.size());
-  for (const auto& triangle : mesh.triangles) {
-    groups.unite(static_cast<std::size_t>(triangle[0]), static_cast<std::size_t>(triangle[1]));
-    groups.unite(static_cast<std::size_t>(triangle[0]), static_cast<std::size_t>(triangle[2]));
+  for (const std::vector<int>& face : mesh.faces) {
+    for (const int vertex : face) {
+      groups.unite(static_cast<std::size_t>(face[0]), static_cast<std::size_t>(vertex));
+    }
   }
   constexpr int none = -1;
-  std::vector<TriangleMesh> shells;
+  std::vector<PolygonMesh> shells;
   std::vector<int> shell_of_group(mesh.vertices.size(), none);
   std::vector<int> index_in_shell(mesh.vertices.size(), none);
-  for (const auto& triangle : mesh.triangles) {
-    int& number = shell_of_group[groups.of(static_cast<std::size_t>(triangle[0]))];
+  for (const std::vector<int>& face : mesh.faces) {
+    int& number = shell_of_group[groups.of(static_cast<std::size_t>(face[0]))];
     if (number == none) {
       number = static_cast<int>(shells.size());
       shells.emplace_back();
+      shells.back().rounding = mesh.rounding;
     }
-    TriangleMesh& shell = shells[static_cast<std::size_t>(number)];
-    std::array<int, 3> renumbered{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto vertex = static_cast<std::size_t>(triangle[i]);
+    PolygonMesh& shell = shells[static_cast<std::size_t>(number)];
+    std::vector<int> renumbered;
+    renumbered.reserve(face.size());
+    for (const int corner : face) {
+      const auto vertex = static_cast<std::size_t>(corner);
       if (index_in_shell[vertex] == none) {
         index_in_shell[vertex] = static_cast<int>(shell.vertices.size());
         shell.vertices.push_back(mesh.vertices[vertex]);
       }
-      renumbered[i] = index_in_shell[vertex];
+      renumbered.push_back(index_in_shell[vertex]);
     }
-    shell.triangles.push_back(renumbered);
+    shell.faces.push_back(std::move(renumbered));
   }
   return shells;
 }
 
-double windingNumber(const TriangleMesh& surface, const Vector3& point) {
+double windingNumber(const PolygonMesh& surface, const Vector3& point) {
   double angle = 0.0;
-  for (const auto& triangle : surface.triangles) {
-    angle += signedSolidAngle(surface.vertices[static_cast<std::size_t>(triangle[0])] - point,
-                              surface.vertices[static_cast<std::size_t>(triangle[1])] - point,
-                              surface.vertices[static_cast<std::size_t>(triangle[2])] - point);
+  const auto from_point = [&](int vertex) -> Vector3 {
+    return surface.vertices[static_cast<std::size_t>(vertex)] - point;
+  };
+  for (const std::vector<int>& face : surface.faces) {
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      angle += signedSolidAngle(from_point(face[0]), from_point(face[i]), from_point(face[i + 1]));
+    }
   }
   return angle / (4.0 * kPi);
 }

@@ -1,5 +1,8 @@
 #include "hovercraft_sim/geometry/volume_moments.h"
 
+#include <cstddef>
+#include <vector>
+
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 
@@ -20,7 +23,7 @@ Matrix3 outer(const Vector3& a, const Vector3& b) {
   return result;
 }
 
-Vector3 middleOfBoundingBox(const TriangleMesh& mesh) {
+Vector3 middleOfBoundingBox(const PolygonMesh& mesh) {
   if (mesh.vertices.empty()) return Vector3::Zero();
   Vector3 low = mesh.vertices.front();
   Vector3 high = low;
@@ -33,24 +36,26 @@ Vector3 middleOfBoundingBox(const TriangleMesh& mesh) {
 
 /// For a tetrahedron (0, a, b, c) with D = a · (b × c) and s = a + b + c:
 /// ∫ dV = D/6, ∫ x dV = D/24 s, ∫ x xᵀ dV = D/120 (a aᵀ + b bᵀ + c cᵀ + s sᵀ).
-Moments momentsAbout(const Vector3& point, const TriangleMesh& mesh) {
+Moments momentsAbout(const Vector3& point, const PolygonMesh& mesh) {
   Moments sum;
-  for (const auto& triangle : mesh.triangles) {
-    const Vector3 a = mesh.vertices[static_cast<std::size_t>(triangle[0])] - point;
-    const Vector3 b = mesh.vertices[static_cast<std::size_t>(triangle[1])] - point;
-    const Vector3 c = mesh.vertices[static_cast<std::size_t>(triangle[2])] - point;
-    const double six_volumes = dot(a, cross(b, c));
-    const Vector3 s = (a + b) + c;
-    sum.zeroth += six_volumes;
-    sum.first += six_volumes * s;
-    sum.second += six_volumes * (((outer(a, a) + outer(b, b)) + outer(c, c)) + outer(s, s));
+  for (const std::vector<int>& face : mesh.faces) {
+    const Vector3 a = mesh.vertices[static_cast<std::size_t>(face[0])] - point;
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      const Vector3 b = mesh.vertices[static_cast<std::size_t>(face[i])] - point;
+      const Vector3 c = mesh.vertices[static_cast<std::size_t>(face[i + 1])] - point;
+      const double six_volumes = dot(a, cross(b, c));
+      const Vector3 s = (a + b) + c;
+      sum.zeroth += six_volumes;
+      sum.first += six_volumes * s;
+      sum.second += six_volumes * (((outer(a, a) + outer(b, b)) + outer(c, c)) + outer(s, s));
+    }
   }
   return {sum.zeroth / 6.0, sum.first / 24.0, sum.second / 120.0};
 }
 
 }  // namespace
 
-VolumeMoments volumeMoments(const TriangleMesh& mesh) {
+VolumeMoments volumeMoments(const PolygonMesh& mesh) {
   const FloatingPointEnvironment environment;
   const Vector3 middle = middleOfBoundingBox(mesh);
   const Moments rough = momentsAbout(middle, mesh);
@@ -62,7 +67,7 @@ VolumeMoments volumeMoments(const TriangleMesh& mesh) {
   return {moments.zeroth, point + rest, moments.second - moments.zeroth * outer(rest, rest)};
 }
 
-double signedVolume(const TriangleMesh& mesh) {
+double signedVolume(const PolygonMesh& mesh) {
   const FloatingPointEnvironment environment;
   return momentsAbout(middleOfBoundingBox(mesh), mesh).zeroth;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include <ros/console.h>
 #include <ros/package.h>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
@@ -89,6 +90,10 @@ std::string packageFolder(const std::string& package) {
   return ros::package::getPath(package);
 }
 
+void warn(const std::string& note) {
+  ROS_WARN("%s", note.c_str());
+}
+
 /// A path of the node's machine, whose working folder nobody knows.
 std::string absolutePath(const hovercraft::ConfigReader& reader, const char* key) {
   const std::string path = reader.text(key);
@@ -115,12 +120,13 @@ hovercraft::Scenario readScenario(const hovercraft::ConfigReader& reader,
   if (reader.has("scenario_file")) {
     if (text != nullptr) reader.fail("scenario_file", "must not stand beside scenario: give one");
     if (has_folder) reader.fail("scenario_dir", "belongs to scenario: a file has its own folder");
-    return hovercraft::loadScenario(absolutePath(reader, "scenario_file"), packageFolder,
-                                    overrides);
+    return hovercraft::loadScenario(absolutePath(reader, "scenario_file"), packageFolder, overrides,
+                                    warn);
   }
   if (text == nullptr) throw std::invalid_argument(name + ": " + kMissingScenario);
   return hovercraft::parseScenario(
-      text->text(), {name, has_folder ? absolutePath(reader, "scenario_dir") : "", packageFolder},
+      text->text(),
+      {name, has_folder ? absolutePath(reader, "scenario_dir") : "", packageFolder, warn},
       overrides);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -138,7 +139,8 @@ void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scena
 
 Scenario loadScenarioFile(const std::string& path, const hovercraft::OverrideList& overrides) {
   return hovercraft::loadScenario(
-      path, [](const std::string& package) { return ros::package::getPath(package); }, overrides);
+      path, [](const std::string& package) { return ros::package::getPath(package); }, overrides,
+      [](const std::string& note) { std::cerr << note << '\n'; });
 }
 
 std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include <std_msgs/ColorRGBA.h>
+
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/ros/conversions.h"
@@ -83,12 +85,31 @@ struct ShapePainter {
   void operator()(const hovercraft::MeshShape& mesh) const {
     target.type = Marker::MESH_RESOURCE;
     target.mesh_resource = "file://" + mesh.file;
-    setScale(target, Vector3::Ones());
+    setScale(target, mesh.scale);
   }
 };
 
+/// Makes a marker draw a mesh with the colours that it has of its own, placed in frame H.
+void setVisual(Marker& target, const hovercraft::VisualScenario& visual, const Quaternion& q_WH,
+               const Vector3& p_WH) {
+  target.type = Marker::MESH_RESOURCE;
+  target.mesh_resource = visual.resource;
+  target.mesh_use_embedded_materials = 1;
+  target.color = std_msgs::ColorRGBA();  // black would tint it, transparent black does not
+  target.points.clear();
+  setScale(target, visual.scale);
+  target.pose.position =
+      toPointMessage(p_WH + hovercraft::times(rotationMatrix(q_WH), visual.p_HV));
+  target.pose.orientation = toQuaternionMessage(q_WH * hovercraft::quaternionFromRpy(visual.rpy));
+}
+
 std::vector<Marker> hullMarkers(const hovercraft::VehicleScenario& craft) {
   std::vector<Marker> markers;
+  if (craft.visual) {
+    Marker mesh = marker(craft, "hull", 0, Marker::MESH_RESOURCE, kHullColor);
+    setVisual(mesh, *craft.visual, {}, Vector3::Zero());
+    return {mesh};
+  }
   if (craft.parts.empty()) {
     Marker box = marker(craft, "hull", 0, Marker::CUBE, kHullColor);
     const Vector3 edges = equivalentBox(craft.mass_properties);
@@ -189,6 +210,7 @@ Marker bodyMarker(const hovercraft::VehicleScenario& body) {
   Marker result = marker(body, "hull", 0, Marker::TRIANGLE_LIST, kBodyColor);
   setScale(result, Vector3::Ones());
   addTriangles(hovercraft::hullOf(body), body.mass_properties.p_HB, result);
+  if (body.visual) setVisual(result, *body.visual, {}, Vector3::Zero());
   return result;
 }
 
@@ -204,6 +226,10 @@ std::vector<Marker> obstacleMarkers(const hovercraft::Scenario& scenario,
     setScale(result, Vector3::Ones());
     addTriangles(hovercraft::convexHull(hovercraft::hullPoints(obstacle.hull), obstacle.name),
                  Vector3::Zero(), result);
+    if (obstacle.visual) {
+      setVisual(result, *obstacle.visual, hovercraft::quaternionFromRpy(obstacle.hull.rpy),
+                obstacle.hull.p_HS);
+    }
     markers.push_back(result);
   }
   return markers;

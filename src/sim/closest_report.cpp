@@ -6,7 +6,7 @@
 
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/geometry/convex_hull.h"
-#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/geometry/mesh_file.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/tolerances.h"
@@ -55,19 +55,20 @@ const char* kindName(const Feature& feature) {
 }
 
 struct Body {
-  TriangleMesh mesh;
+  LoadedMesh loaded;
   ConvexPolyhedron polyhedron;
 
-  Body(const std::string& path, NonConvexMesh choice)
-      : mesh(choice == NonConvexMesh::kTakeHull ? loadSurface(path) : loadTriangleMesh(path)),
-        polyhedron(polyhedronFromMesh(mesh, choice, "mesh file '" + path + "'")) {}
+  Body(const std::string& path, const Vector3& scale, NonConvexMesh choice)
+      : loaded(choice == NonConvexMesh::kTakeHull ? loadSurface(path, scale)
+                                                  : loadClosedMesh(path, scale)),
+        polyhedron(polyhedronFromMesh(loaded.mesh, choice, "mesh file '" + path + "'")) {}
 
   /// The vertices of a feature, counted from 0 in the order of their first use in the file.
   std::string vertices(const Feature& feature) const {
     std::string text;
     for (const std::int32_t v : polyhedron.verticesOf(feature)) {
       std::size_t i = 0;
-      while (mesh.vertices[i] != polyhedron.vertex(v)) ++i;
+      while (loaded.mesh.vertices[i] != polyhedron.vertex(v)) ++i;
       text += fmt::format("{}{}", text.empty() ? "" : ", ", i);
     }
     return text;
@@ -104,13 +105,18 @@ std::string textReport(const Body& A, const Body& B, const ClosestFeatures& c) {
 
 }  // namespace
 
-std::string closestReport(const ClosestRequest& request) {
+std::string closestReport(const ClosestRequest& request, std::vector<std::string>* notes) {
   const FloatingPointEnvironment environment;
   const NonConvexMesh choice = request.hull ? NonConvexMesh::kTakeHull : NonConvexMesh::kRefuse;
   const Pose X_WA = poseFrom(request.pose_a, "pose-a");
   const Pose X_WB = poseFrom(request.pose_b, "pose-b");
-  const Body A(request.mesh_a, choice);
-  const Body B(request.mesh_b, choice);
+  const Body A(request.mesh_a, request.scale, choice);
+  const Body B(request.mesh_b, request.scale, choice);
+  if (notes != nullptr) {
+    for (const Body* body : {&A, &B}) {
+      notes->insert(notes->end(), body->loaded.notes.begin(), body->loaded.notes.end());
+    }
+  }
   FeaturePair last;
   const ClosestFeatures c = closestFeatures(A.polyhedron, X_WA, B.polyhedron, X_WB, last);
   return request.json ? jsonReport(A, B, c) : textReport(A, B, c);

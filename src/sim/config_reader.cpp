@@ -87,6 +87,10 @@ bool ConfigReader::has(const char* key) const {
   return node_.find(key) != nullptr;
 }
 
+bool ConfigReader::isMap(const char* key) const {
+  return required(key).isMap();
+}
+
 const ConfigNode& ConfigReader::required(const std::string& key) const {
   const ConfigNode* const found = node_.find(key);
   if (found == nullptr) fail(key, "the key is missing");
@@ -180,6 +184,15 @@ Vector3 ConfigReader::lengths(const char* key) const {
 Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,
                                const NumberRule& rule) const {
   return has(key) ? vector(key, rule) : fallback;
+}
+
+Vector3 ConfigReader::numberOrVector(const char* key, const NumberRule& rule) const {
+  const ConfigNode& node = required(key);
+  if (node.isText()) return Vector3::Constant(numberAt(node, key, rule));
+  if (node.items().size() != 3) {
+    fail(key, "must be a number or a list of three numbers");
+  }
+  return vector(key, rule);
 }
 
 bool ConfigReader::flagOr(bool fallback, const char* key) const {

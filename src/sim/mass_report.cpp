@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
-#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/geometry/mesh_file.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
@@ -22,7 +24,7 @@ struct VolumeOfShape {
   double operator()(const ConeShape& cone) const { return coneVolume(cone.radius, cone.length); }
   double operator()(const SphereShape& sphere) const { return sphereVolume(sphere.radius); }
   double operator()(const MeshShape& mesh) const {
-    return volumeMoments(loadTriangleMesh(mesh.file)).volume;
+    return volumeMoments(loadClosedMesh(mesh.file, mesh.scale).mesh).volume;
   }
 };
 
@@ -51,13 +53,17 @@ std::vector<BodyReport> vehiclesOf(const MassReportRequest& request, const Scena
 }
 
 BodyReport reportOnMesh(const MassReportRequest& request) {
-  const TriangleMesh mesh = loadTriangleMesh(request.file);
+  LoadedMesh loaded = loadClosedMesh(request.file, request.scale.value_or(Vector3::Ones()));
+  const PolygonMesh& mesh = loaded.mesh;
   BodyReport report;
   report.properties = request.mass
                           ? meshMassProperties(mesh, *request.mass)
                           : meshMassPropertiesOfDensity(mesh, request.density.value_or(1.0));
   report.volume = volumeMoments(mesh).volume;
   checkInertia(report.properties.I_BBo_B, request.file + ": inertia");
+  report.notes = std::move(loaded.notes);
+  const std::string hint = scaleHint(*report.volume, report.properties.mass);
+  if (!hint.empty()) report.notes.push_back("mesh file '" + request.file + "': " + hint);
   return report;
 }
 
@@ -132,6 +138,10 @@ std::vector<BodyReport> bodiesOf(
       throw std::invalid_argument(
           fmt::format("--{}: is for a mesh; the vehicles of {} have their own mass",
                       request.density ? "density" : "mass", request.file));
+    }
+    if (request.scale) {
+      throw std::invalid_argument(
+          fmt::format("--scale: is for a mesh; in {} a mesh has a scale of its own", request.file));
     }
     return vehiclesOf(request, load_scenario(request.file));
   }

@@ -1,12 +1,10 @@
 #include "hovercraft_sim/sim/number_text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
 #include <limits>
-#include <locale.h>
 
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
@@ -25,43 +23,6 @@ struct Decimal {
   bool is_negative = false;
   std::string digits;
   int point = 0;
-};
-
-class DecimalScanner {
- public:
-  explicit DecimalScanner(const std::string& text) : text_(text) {}
-
-  /// True if the whole text is a decimal number.
-  bool scan() {
-    skipSign();
-    const std::size_t whole = skipDigits();
-    std::size_t fraction = 0;
-    if (at('.')) {
-      ++position_;
-      fraction = skipDigits();
-    }
-    if (whole + fraction == 0) return false;
-    if (at('e') || at('E')) {
-      ++position_;
-      skipSign();
-      if (skipDigits() == 0) return false;
-    }
-    return position_ == text_.size();
-  }
-
- private:
-  bool at(char c) const { return position_ < text_.size() && text_[position_] == c; }
-  void skipSign() {
-    if (at('+') || at('-')) ++position_;
-  }
-  std::size_t skipDigits() {
-    const std::size_t begin = position_;
-    while (position_ < text_.size() && isDigit(text_[position_])) ++position_;
-    return position_ - begin;
-  }
-
-  const std::string& text_;
-  std::size_t position_ = 0;
 };
 
 Decimal takenApart(const std::string& text) {
@@ -179,14 +140,9 @@ Digits17 shortestDigits(double number) {
   return {shortest(value, most), kDigits - 1 - power};
 }
 
-double classicStrtod(const char* text) {
-  static const locale_t classic_locale = newlocale(LC_ALL_MASK, "C", nullptr);
-  return strtod_l(text, nullptr, classic_locale);
-}
-
 bool isReadBack(double number, const Digits17& parts) {
   const std::string text = fmt::format("{}e{}", parts.digits, parts.exponent - (kDigits - 1));
-  return classicStrtod(text.c_str()) == number;
+  return parseNumber(text).value == number;
 }
 
 /// A positive number rounded to so many digits.
@@ -245,25 +201,7 @@ void appendDigits(fmt::memory_buffer& buffer, Digits17 parts) {
   }
 }
 
-bool isNotFiniteWord(std::string word) {
-  std::transform(word.begin(), word.end(), word.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (!word.empty() && (word.front() == '+' || word.front() == '-')) word.erase(0, 1);
-  if (!word.empty() && word.front() == '.') word.erase(0, 1);
-  return word == "nan" || word == "inf" || word == "infinity";
-}
-
 }  // namespace
-
-ParsedNumber parseNumber(const std::string& text) {
-  const FloatingPointEnvironment environment;
-  if (!DecimalScanner(text).scan()) {
-    return {isNotFiniteWord(text) ? NumberSyntax::kNotFinite : NumberSyntax::kNoNumber, 0.0};
-  }
-  const double value = classicStrtod(text.c_str());
-  if (!std::isfinite(value)) return {NumberSyntax::kNotFinite, 0.0};
-  return {NumberSyntax::kNumber, value};
-}
 
 std::int64_t parseNanoseconds(const std::string& text) {
   const Decimal decimal = takenApart(text);

@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/input_file.h"
+#include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
@@ -47,30 +47,6 @@ Matrix3 parseInertia(const ConfigReader& vehicle) {
   return inertia;
 }
 
-}  // namespace
-
-std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
-  std::string file = reader.text("file");
-  const std::string scheme = "package://";
-  if (file.rfind(scheme, 0) == 0) {
-    const std::size_t slash = file.find('/', scheme.size());
-    if (slash == std::string::npos) reader.fail("file", "must be package://PACKAGE/PATH");
-    const std::string package = file.substr(scheme.size(), slash - scheme.size());
-    const std::string folder = source.package_folder ? source.package_folder(package) : "";
-    if (folder.empty()) reader.fail("file", fmt::format("there is no ROS package {}", package));
-    return folder + file.substr(slash);
-  }
-  if (std::filesystem::path(file).is_absolute()) return file;
-  if (source.directory.empty()) {
-    reader.fail("file",
-                "is relative to no folder: must be a package:// URL or an absolute path (or, for a "
-                "node, give its parameter scenario_dir)");
-  }
-  return (std::filesystem::path(source.directory) / file).lexically_normal().string();
-}
-
-namespace {
-
 struct ParsedPart {
   // A constructor, not an aggregate: GCC 12 destroys the first member twice if the second one's
   // initializer throws.
@@ -80,14 +56,6 @@ struct ParsedPart {
   PartScenario part;
   MassProperties unit;  // of density 1 kg/m³, in the part's own frame
 };
-
-MassProperties meshAtUnitDensity(const ConfigReader& reader, const std::string& path) {
-  try {
-    return meshMassPropertiesOfDensity(loadTriangleMesh(path), 1.0);
-  } catch (const std::invalid_argument& error) {
-    reader.fail("file", error.what());
-  }
-}
 
 bool isPositiveAndFinite(double number) {
   return number > 0.0 && std::isfinite(number);
@@ -117,9 +85,8 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   }
   if (part.has("mesh")) {
     const ConfigReader mesh = part.map("mesh");
-    mesh.allowOnly({"file"});
-    const std::string path = meshPath(mesh, source);
-    return {{MeshShape{path}}, meshAtUnitDensity(mesh, path)};
+    const MeshShape shape = parseMesh(mesh, source);
+    return {{shape}, meshMassPropertiesOfDensity(loadedBody(mesh, shape, source), 1.0)};
   }
   const bool is_cone = part.has("cone");
   const ConfigReader round = part.map(is_cone ? "cone" : "cylinder");
@@ -154,6 +121,10 @@ std::pair<PartScenario, MassProperties> parsePart(const ConfigReader& reader,
                                  : reader.number("density", kPositive) * parsed.unit.mass;
   if (!isPositiveAndFinite(part.mass)) {
     reader.fail("density", "makes a mass that is not positive and finite");
+  }
+  const std::string hint = scaleHint(parsed.unit.mass, part.mass);
+  if (source.note && !hint.empty() && std::holds_alternative<MeshShape>(part.shape)) {
+    source.note(reader.where("mesh") + ": " + hint);
   }
   part.p_HP = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   part.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
@@ -234,6 +205,7 @@ VehicleScenario parseMovingBody(const std::string& name, const ConfigReader& rea
   VehicleScenario vehicle;
   vehicle.name = name;
   parseMass(reader, source, vehicle);
+  vehicle.visual = parseVisual(reader, source);
   if (reader.has("drag")) parseDrag(reader.map("drag"), vehicle.drag);
   if (reader.has("initial")) parseInitial(reader.map("initial"), model, vehicle);
   return vehicle;
@@ -244,7 +216,7 @@ namespace {
 VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
                              const ScenarioSource& source, BodyModel model) {
   reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "hull",
-                    "material", "initial"});
+                    "material", "visual", "initial"});
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   const ConfigReader engines = reader.map("engines");
   engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
@@ -289,14 +261,15 @@ Scenario parseScenario(const std::string& text, const ScenarioSource& source,
 
 Scenario loadScenario(const std::string& path,
                       std::function<std::string(const std::string&)> package_folder,
-                      const OverrideList& overrides) {
+                      const OverrideList& overrides, std::function<void(const std::string&)> note) {
   std::error_code unreadable;
   if (!std::filesystem::exists(path, unreadable)) {
     throw std::invalid_argument(path + ": there is no such file");
   }
   const std::string text = readWholeFile(path, kLongestYamlText);
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  return parseScenario(text, {path, folder.string(), std::move(package_folder)}, overrides);
+  return parseScenario(text, {path, folder.string(), std::move(package_folder), std::move(note)},
+                       overrides);
 }
 
 }  // namespace hovercraft

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
@@ -29,9 +30,8 @@ struct ShapeWriter {
     return "cone: {radius: " + yamlNumber(cone.radius) + ", length: " + yamlNumber(cone.length) +
            "}";
   }
-  std::string operator()(const MeshShape& mesh) const {
-    return "mesh: {file: " + yamlText(mesh.file) + "}";
-  }
+  /// A craft with such a part is written by numbers.
+  std::string operator()(const MeshShape& /*mesh*/) const { return ""; }
 };
 
 std::string massText(const VehicleScenario& vehicle) {
@@ -78,6 +78,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
   std::string yaml = fmt::format("  {}:\n{}", yamlText(vehicle.name), massText(vehicle));
   if (has_engines) yaml += engineText(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
+  if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";
   yaml += fmt::format(
       "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}}}\n",
       yamlVector(vehicle.drag.linear), yamlVector(vehicle.drag.quadratic),

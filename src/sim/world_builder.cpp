@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "hovercraft_sim/geometry/convex_hull.h"
+#include "hovercraft_sim/geometry/mesh_file.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
-#include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 
@@ -60,7 +60,7 @@ struct HullCorners {
     return points;
   }
   std::vector<Vector3> operator()(const MeshShape& mesh) const {
-    return loadTriangleMesh(mesh.file).vertices;
+    return loadClosedMesh(mesh.file, mesh.scale).mesh.vertices;
   }
 };
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "hovercraft_sim/geometry/convex_hull.h"
-#include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_builder.h"
@@ -59,17 +59,6 @@ void parseMaterials(const ConfigReader& reader, WorldScenario& world) {
   }
 }
 
-PointsShape parseMesh(const ConfigReader& reader, const ScenarioSource& source) {
-  reader.allowOnly({"file"});
-  const std::string path = meshPath(reader, source);
-  try {
-    return PointsShape{
-        polyhedronFromMesh(loadSurface(path), NonConvexMesh::kTakeHull, path).vertices()};
-  } catch (const std::invalid_argument& error) {
-    reader.fail("file", error.what());
-  }
-}
-
 PointsShape parsePoints(const ConfigReader& reader) {
   PointsShape shape;
   for (const ConfigReader& point : reader.list("points")) {
@@ -100,7 +89,8 @@ HullScenario parseHull(const ConfigReader& reader, const ScenarioSource& source)
     cylinder.allowOnly({"radius", "length"});
     hull.shape = CylinderShape{cylinder.length("radius"), cylinder.length("length")};
   } else if (reader.has("mesh")) {
-    hull.shape = parseMesh(reader.map("mesh"), source);
+    const ConfigReader mesh = reader.map("mesh");
+    hull.shape = loadedHull(mesh, parseMesh(mesh, source), source);
   } else {
     hull.shape = parsePoints(reader);
   }
@@ -236,8 +226,8 @@ void parseObstacles(const ConfigReader& obstacles, const ScenarioSource& source,
   for (const auto& [name, obstacle] : obstacles.maps()) {
     requireName(obstacle, name);
     obstacle.allowOnly(
-        {"box", "cylinder", "sphere", "mesh", "points", "position", "rpy", "material"});
-    world.obstacles.push_back({name, parseHull(obstacle, source),
+        {"box", "cylinder", "sphere", "mesh", "points", "position", "rpy", "material", "visual"});
+    world.obstacles.push_back({name, parseHull(obstacle, source), parseVisual(obstacle, source),
                                obstacle.choiceOr(0, "material", namesOf(world.materials))});
   }
 }
@@ -245,8 +235,8 @@ void parseObstacles(const ConfigReader& obstacles, const ScenarioSource& source,
 void parseBodies(const ConfigReader& bodies, const ScenarioSource& source, BodyModel model,
                  WorldScenario& world) {
   for (const auto& [name, body] : bodies.maps()) {
-    body.allowOnly(
-        {"mass", "inertia", "center_of_mass", "parts", "drag", "hull", "material", "initial"});
+    body.allowOnly({"mass", "inertia", "center_of_mass", "parts", "drag", "hull", "material",
+                    "visual", "initial"});
     world.bodies.push_back(parseMovingBody(name, body, source, model));
     parseSurfaceOf(body, source, world, world.bodies.back());
   }
@@ -300,8 +290,9 @@ std::string worldYaml(const Scenario& scenario) {
   }
   if (!world.obstacles.empty()) yaml += "  obstacles:\n";
   for (const ObstacleScenario& obstacle : world.obstacles) {
-    yaml += fmt::format("    {}: {{{}, material: {}}}\n", yamlText(obstacle.name),
-                        hullText(obstacle.hull), yamlText(world.materials[obstacle.material].name));
+    yaml += fmt::format("    {}: {{{}, material: {}{}}}\n", yamlText(obstacle.name),
+                        hullText(obstacle.hull), yamlText(world.materials[obstacle.material].name),
+                        obstacle.visual ? ", " + visualText(*obstacle.visual) : "");
   }
   return yaml;
 }

@@ -296,10 +296,13 @@ std::string yamlText(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') quoted += '\\';
+    const auto byte = static_cast<unsigned char>(c);
     if (c == '\n') {
       quoted += "\\n";
     } else if (c == '\t') {
       quoted += "\\t";
+    } else if (byte < ' ' || c == '\x7f') {
+      quoted += fmt::format("\\x{:02x}", byte);
     } else {
       quoted += c;
     }

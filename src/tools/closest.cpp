@@ -1,5 +1,5 @@
-// closest A B [--pose-a x y z qx qy qz qw] [--pose-b ...] [--hull] [--json]: the closest features
-// of two convex meshes.
+// closest A B [--pose-a x y z qx qy qz qw] [--pose-b ...] [--scale s]
+// [--hull] [--json]: the closest features of two convex meshes.
 #include <boost/program_options.hpp>
 #include <exception>
 #include <iostream>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hovercraft_sim/sim/closest_report.h"
+#include "hovercraft_sim/sim/mesh_scale.h"
 
 namespace {
 
@@ -16,12 +17,15 @@ namespace options = boost::program_options;
 int run(int argc, char** argv) {
   hovercraft::ClosestRequest request;
   std::vector<std::string> meshes;
+  std::vector<std::string> scale;
   options::options_description visible(
       "closest A B [--pose-a x y z qx qy qz qw] [--pose-b ...]: closest features of two convex "
-      "meshes (m)");
+      "meshes (OBJ, STL; m)");
   visible.add_options()("help", "this text")(
       "pose-a", options::value(&request.pose_a)->multitoken(), "pose of A in the world, identity")(
       "pose-b", options::value(&request.pose_b)->multitoken(), "pose of B in the world, identity")(
+      "scale", options::value(&scale)->multitoken(),
+      "of the coordinates of both meshes to m, one number or three: 0.001 for millimetres")(
       "hull", options::bool_switch(&request.hull),
       "take the convex hull of a mesh that is not convex, or open")(
       "json", options::bool_switch(&request.json), "one JSON object");
@@ -41,10 +45,14 @@ int run(int argc, char** argv) {
     std::cout << visible;
     return 0;
   }
+  if (!scale.empty()) request.scale = hovercraft::takeScale(scale, meshes);
   if (meshes.size() != 2) throw std::invalid_argument("it takes two mesh files");
   request.mesh_a = meshes[0];
   request.mesh_b = meshes[1];
-  std::cout << hovercraft::closestReport(request);
+  std::vector<std::string> notes;
+  const std::string report = hovercraft::closestReport(request, &notes);
+  for (const std::string& note : notes) std::cerr << "closest: " << note << "\n";
+  std::cout << report;
   return 0;
 }
 

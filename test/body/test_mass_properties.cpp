@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/body/mass_properties.h"
+#include "hovercraft_sim/geometry/mesh_file.h"
 #include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/rotation.h"
 
@@ -128,7 +129,7 @@ TEST(MassProperties, ConeIsAStackOfDiscs) {
 TEST(MassProperties, NumbersThatAreNotPositiveAreNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  const TriangleMesh cube = boxMesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
+  const PolygonMesh cube = boxMesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0});
   EXPECT_EQ(messageOf([&] {
               boxMassProperties(-1.0, {1.0, 1.0, 1.0});
             }),
@@ -162,7 +163,7 @@ TEST(MassProperties, AMeshOfABoxIsABox) {
 }
 
 TEST(MassProperties, DensityTimesVolumeIsTheMass) {
-  const TriangleMesh box = boxMesh({0.0, 0.0, 0.0}, {1.0, 2.0, 3.0});
+  const PolygonMesh box = boxMesh({0.0, 0.0, 0.0}, {1.0, 2.0, 3.0});
   const MassProperties by_density = meshMassPropertiesOfDensity(box, 500.0);
   EXPECT_NEAR(by_density.mass, 3000.0, 1e-12);
   EXPECT_LT(difference(meshMassProperties(box, 3000.0), by_density), 1e-15);
@@ -177,15 +178,15 @@ TEST(MassProperties, AMeshOfAnLIsAnLOfBoxes) {
   const MassProperties leg =
       placed(boxMassProperties(0.5 * density, {1.0, 1.0, 0.5}), upright, {0.5, 1.5, 0.25});
   const MassProperties mesh =
-      meshMassPropertiesOfDensity(loadTriangleMesh("test/data/l_shape.obj"), density);
+      meshMassPropertiesOfDensity(loadClosedMesh("test/data/l_shape.obj").mesh, density);
   EXPECT_LT(difference(mesh, composed({foot, leg})), 1e-15);
   // -∫ xy dm: 4.5 kg at (0.25, -0.25), 1.5 kg at (-0.75, 0.75) from the centre (1.25, 0.75).
   EXPECT_NEAR(mesh.I_BBo_B(0, 1), 4.5 * 0.0625 + 1.5 * 0.5625, 1e-15);
 }
 
 TEST(MassProperties, ACavityIsABodyOfNegativeMass) {
-  const TriangleMesh outer = boxMesh({-2.0, -1.0, -1.0}, {2.0, 1.0, 1.0});
-  const TriangleMesh wall = turnedOver(boxMesh({0.0, -0.5, -0.5}, {1.5, 0.5, 0.5}));
+  const PolygonMesh outer = boxMesh({-2.0, -1.0, -1.0}, {2.0, 1.0, 1.0});
+  const PolygonMesh wall = turnedOver(boxMesh({0.0, -0.5, -0.5}, {1.5, 0.5, 0.5}));
   MassProperties hole =
       placed(boxMassProperties(1.5, {1.5, 1.0, 1.0}), Matrix3::Identity(), {0.75, 0.0, 0.0});
   hole.mass = -hole.mass;
@@ -198,7 +199,7 @@ TEST(MassProperties, ACavityIsABodyOfNegativeMass) {
 TEST(MassProperties, PlacingTurnsTheBodyAsItTurnsItsMesh) {
   std::mt19937 engine(1);
   for (int n = 0; n < 50; ++n) {
-    const TriangleMesh star = starMesh(engine);
+    const PolygonMesh star = starMesh(engine);
     const Matrix3 R = randomRotation(engine);
     const Vector3 p = randomVector(engine, 5.0);
     const MassProperties turned = placed(meshMassProperties(star, 2.0), R, p);

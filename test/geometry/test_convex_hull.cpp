@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/geometry/convex_hull.h"
+#include "hovercraft_sim/geometry/mesh_file.h"
 
 #include "../collision/random_bodies.h"
 #include "../support/files.h"
@@ -41,8 +42,8 @@ class CubeGrid {
 };
 
 /// The unit cube around the origin, each face of n x n squares of two triangles.
-TriangleMesh tessellatedCube(int n) {
-  TriangleMesh mesh;
+PolygonMesh tessellatedCube(int n) {
+  PolygonMesh mesh;
   CubeGrid grid(n);
   for (int square = 0; square < 6 * n * n; ++square) {
     const auto axis = static_cast<std::size_t>(square / (2 * n * n));
@@ -53,8 +54,8 @@ TriangleMesh tessellatedCube(int n) {
     const int b = grid.corner(axis, top, i + 1, j);
     const int c = grid.corner(axis, top, i + 1, j + 1);
     const int d = grid.corner(axis, top, i, j + 1);
-    mesh.triangles.push_back({a, b, c});
-    mesh.triangles.push_back({a, c, d});
+    mesh.faces.push_back({a, b, c});
+    mesh.faces.push_back({a, c, d});
   }
   mesh.vertices = grid.vertices();
   return mesh;
@@ -144,7 +145,7 @@ TEST(ConvexHull, RefusesPointsWithoutVolume) {
 }
 
 TEST(PolyhedronFromMesh, MergesTheTrianglesOfACube) {
-  const TriangleMesh mesh = loadTriangleMesh("test/data/cube.obj");
+  const PolygonMesh mesh = loadClosedMesh("test/data/cube.obj").mesh;
   const ConvexPolyhedron cube = polyhedronFromMesh(mesh, NonConvexMesh::kRefuse, "cube");
   EXPECT_EQ(cube.vertexCount(), 8);
   EXPECT_EQ(cube.faceCount(), 6);
@@ -156,7 +157,7 @@ TEST(PolyhedronFromMesh, TakesATurnedTessellatedCubeOfSixDecimals) {
   for (const int n : {1, 6, 12}) {
     for (int sample = 0; sample < 20; ++sample) {
       const Matrix3 R = rotationMatrix(random.orientation());
-      TriangleMesh mesh = tessellatedCube(n);
+      PolygonMesh mesh = tessellatedCube(n);
       for (Vector3& p : mesh.vertices) {
         p = times(R, p);
         for (int axis = 0; axis < 3; ++axis) {
@@ -171,8 +172,8 @@ TEST(PolyhedronFromMesh, TakesATurnedTessellatedCubeOfSixDecimals) {
 
 /// The tessellated cube with one inner vertex of its top (the one that is nearest its middle)
 /// moved to a height.
-TriangleMesh dented(int n, double z) {
-  TriangleMesh mesh = tessellatedCube(n);
+PolygonMesh dented(int n, double z) {
+  PolygonMesh mesh = tessellatedCube(n);
   const auto squared = [](const Vector3& p) { return squaredNorm(p - Vector3(0, 0, 0.5)); };
   auto nearest = mesh.vertices.begin();
   for (auto p = mesh.vertices.begin(); p != mesh.vertices.end(); ++p) {
@@ -183,8 +184,8 @@ TriangleMesh dented(int n, double z) {
 }
 
 /// The unit cube with a pit in the middle of its top, 2 mm wide and 0.8 m deep.
-TriangleMesh cubeWithAPit() {
-  TriangleMesh mesh = tessellatedCube(1);
+PolygonMesh cubeWithAPit() {
+  PolygonMesh mesh = tessellatedCube(1);
   std::array<int, 4> corners{};  // of the top, counter-clockwise
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vector3& p = mesh.vertices[v];
@@ -193,7 +194,7 @@ TriangleMesh cubeWithAPit() {
     corners[quarter] = static_cast<int>(v);
   }
   const auto in_top = [&](int v) { return mesh.vertices[static_cast<std::size_t>(v)].z() > 0.0; };
-  auto& triangles = mesh.triangles;
+  auto& triangles = mesh.faces;
   triangles.erase(
       std::remove_if(triangles.begin(), triangles.end(),
                      [&](const auto& t) { return in_top(t[0]) && in_top(t[1]) && in_top(t[2]); }),
@@ -218,7 +219,7 @@ TriangleMesh cubeWithAPit() {
 // than the rounding of a mesh file. A dent of one vertex is rounding up to kMeshDentDepth of the
 // greatest coordinate, 2e-6 m here.
 TEST(PolyhedronFromMesh, RefusesADeepNarrowDent) {
-  const auto message = [](const TriangleMesh& mesh) -> std::string {
+  const auto message = [](const PolygonMesh& mesh) -> std::string {
     EXPECT_NO_THROW(checkClosed(mesh, "mesh"));
     return testing::messageOf([&] { polyhedronFromMesh(mesh, NonConvexMesh::kRefuse, "pit"); });
   };
@@ -228,7 +229,7 @@ TEST(PolyhedronFromMesh, RefusesADeepNarrowDent) {
   EXPECT_EQ(message(dented(40, 0.5)), "nothing was thrown");
   // A groove of 1 mm along an edge of the cube: all its vertices are on the surface of the hull.
   const double g = 0.5 - 1e-3;
-  TriangleMesh groove;
+  PolygonMesh groove;
   for (const double x : {-0.5, 0.5}) {
     for (const auto& yz : std::vector<std::array<double, 2>>{
              {-0.5, -0.5}, {0.5, -0.5}, {0.5, g}, {g, g}, {g, 0.5}, {-0.5, 0.5}}) {
@@ -237,19 +238,19 @@ TEST(PolyhedronFromMesh, RefusesADeepNarrowDent) {
   }
   for (int i = 0; i < 6; ++i) {
     const int next = (i + 1) % 6;
-    groove.triangles.push_back({i, next, 6 + next});
-    groove.triangles.push_back({i, 6 + next, 6 + i});
+    groove.faces.push_back({i, next, 6 + next});
+    groove.faces.push_back({i, 6 + next, 6 + i});
   }
   for (const int i : {0, 1, 4, 5}) {  // from the inner corner, which sees all others
     const int next = (i + 1) % 6;
-    groove.triangles.push_back({3, next, i});
-    groove.triangles.push_back({9, 6 + i, 6 + next});
+    groove.faces.push_back({3, next, i});
+    groove.faces.push_back({9, 6 + i, 6 + next});
   }
   EXPECT_NE(message(groove).find("is not convex: vertex "), std::string::npos);
 }
 
 TEST(PolyhedronFromMesh, RefusesANonConvexMeshOrTakesItsHull) {
-  const TriangleMesh mesh = loadTriangleMesh("test/data/l_shape.obj");
+  const PolygonMesh mesh = loadClosedMesh("test/data/l_shape.obj").mesh;
   try {
     polyhedronFromMesh(mesh, NonConvexMesh::kRefuse, "l_shape");
     FAIL() << "an L was taken for convex";
@@ -258,7 +259,7 @@ TEST(PolyhedronFromMesh, RefusesANonConvexMeshOrTakesItsHull) {
     EXPECT_NE(std::string(error.what()).find("hull: true"), std::string::npos);
   }
   EXPECT_GE(polyhedronFromMesh(mesh, NonConvexMesh::kTakeHull, "l_shape").vertexCount(), 8);
-  EXPECT_THROW(polyhedronFromMesh(loadTriangleMesh("test/data/two_boxes.obj"),
+  EXPECT_THROW(polyhedronFromMesh(loadClosedMesh("test/data/two_boxes.obj").mesh,
                                   NonConvexMesh::kRefuse, "two boxes"),
                std::invalid_argument);
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/geometry/mesh_file.h"
 #include "hovercraft_sim/geometry/shells.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/rotation.h"
@@ -57,7 +58,7 @@ TEST(VolumeMoments, BoxHasItsClosedForm) {
 // dV = V a²/10, ∫ xy dV = V ab/20 (integrals of monomials over a simplex, i! j! k! / (i+j+k+3)!);
 // about the centroid V a² (1/10 - 1/16) = 3/80 V a² and V ab (1/20 - 1/16) = -V ab/80.
 TEST(VolumeMoments, CornerTetrahedronHasItsClosedForm) {
-  const VolumeMoments moments = volumeMoments(loadTriangleMesh("test/data/tetrahedron.stl"));
+  const VolumeMoments moments = volumeMoments(loadClosedMesh("test/data/tetrahedron.stl").mesh);
   const Vector3 legs(1.0, 2.0, 3.0);
   EXPECT_NEAR(moments.volume, 1.0, 1e-15);
   EXPECT_LT(norm(moments.centroid - legs / 4.0), 1e-15);
@@ -113,14 +114,14 @@ TEST(VolumeMoments, RandomParallelepipedsAgreeWithTheirClosedForm) {
 /// The same integrals by another way, as Mirtich (1996) has them: the flux of (x³/3, 0, 0) for ∫ x²
 /// dV, of (x² y/2, 0, 0) for ∫ xy dV and so on through each triangle, by a quadrature that is exact
 /// up to degree 5 (Radon 1948, seven points).
-VolumeMoments momentsByFlux(const TriangleMesh& mesh) {
+VolumeMoments momentsByFlux(const PolygonMesh& mesh) {
   const double root = std::sqrt(15.0);
   const std::array<double, 3> at{1.0 / 3.0, (6.0 - root) / 21.0, (6.0 + root) / 21.0};
   const std::array<double, 3> weight{9.0 / 40.0, (155.0 - root) / 1200.0, (155.0 + root) / 1200.0};
   double volume = 0.0;
   Vector3 first = Vector3::Zero();
   Matrix3 second = Matrix3::Zero();
-  for (const auto& t : mesh.triangles) {
+  for (const auto& t : mesh.faces) {
     const Vector3& a = mesh.vertices[static_cast<std::size_t>(t[0])];
     const Vector3& b = mesh.vertices[static_cast<std::size_t>(t[1])];
     const Vector3& c = mesh.vertices[static_cast<std::size_t>(t[2])];
@@ -150,7 +151,7 @@ VolumeMoments momentsByFlux(const TriangleMesh& mesh) {
 TEST(VolumeMoments, RandomConcaveBodiesAgreeWithSurfaceQuadrature) {
   std::mt19937 engine(3);
   for (int n = 0; n < 100; ++n) {
-    const TriangleMesh star = starMesh(engine);
+    const PolygonMesh star = starMesh(engine);
     EXPECT_LT(difference(volumeMoments(star), momentsByFlux(star)), 1e-13) << "sample " << n;
   }
 }
@@ -159,7 +160,7 @@ TEST(VolumeMoments, RandomConcaveBodiesAgreeWithSurfaceQuadrature) {
 // about a fifth of their cells; the sum of so many independent roundings is good to 1 %.
 TEST(VolumeMoments, AConcaveBodyAgreesWithCountingPointsInside) {
   std::mt19937 engine(4);
-  const TriangleMesh star = starMesh(engine);
+  const PolygonMesh star = starMesh(engine);
   const double step = 0.05;
   VolumeMoments counted;
   Matrix3 second = Matrix3::Zero();
@@ -185,7 +186,7 @@ TEST(VolumeMoments, AConcaveBodyAgreesWithCountingPointsInside) {
 TEST(VolumeMoments, NothingIsLostFarFromTheOrigin) {
   std::mt19937 engine(5);
   for (const int n : {20, 40}) {
-    TriangleMesh star = starMesh(engine);
+    PolygonMesh star = starMesh(engine);
     const double grid = std::ldexp(1.0, n - 52);
     for (Vector3& vertex : star.vertices) vertex = (vertex / grid).array().round().matrix() * grid;
     const Vector3 far = std::ldexp(1.0, n) * Vector3(1.0, -1.0, 1.0);
@@ -203,7 +204,7 @@ TEST(VolumeMoments, NothingIsLostFarFromTheOrigin) {
 // the centroid, the spike's own moments are far larger per volume.
 TEST(VolumeMoments, NothingIsLostWhereTheCentroidIsFarFromTheMiddle) {
   const VolumeMoments cube = volumeMoments(boxMesh(-kOne, kOne));
-  const TriangleMesh spike = boxMesh({1.0e4, 0.0, 0.0}, {1.0e4 + 1.0, 1e-9, 1e-9});
+  const PolygonMesh spike = boxMesh({1.0e4, 0.0, 0.0}, {1.0e4 + 1.0, 1e-9, 1e-9});
   const VolumeMoments both = volumeMoments(joined(boxMesh(-kOne, kOne), spike));
   // 1e-18 m³ at 1e4 m to 1e4 + 1 m: second moment 1e-18 (1e8 + 1e4 + 1/3) beside 8/3 of the other.
   EXPECT_NEAR(both.second_about_centroid(0, 0) - cube.second_about_centroid(0, 0), 1.0001e-10,
@@ -214,7 +215,7 @@ TEST(VolumeMoments, NothingIsLostWhereTheCentroidIsFarFromTheMiddle) {
 TEST(VolumeMoments, ARotatedAndMovedBodyHasRotatedAndMovedMoments) {
   std::mt19937 engine(6);
   for (int n = 0; n < 50; ++n) {
-    const TriangleMesh star = starMesh(engine);
+    const PolygonMesh star = starMesh(engine);
     const Matrix3 R = randomRotation(engine);
     const Vector3 p = randomVector(engine, 10.0);
     VolumeMoments expected = volumeMoments(star);
@@ -228,7 +229,7 @@ TEST(VolumeMoments, ARotatedAndMovedBodyHasRotatedAndMovedMoments) {
 // Lengths times s: volume times s³, second moments times s⁵; a power of two changes no digit.
 TEST(VolumeMoments, ScaleWithTheThirdAndTheFifthPowerOfLength) {
   std::mt19937 engine(7);
-  const TriangleMesh star = starMesh(engine);
+  const PolygonMesh star = starMesh(engine);
   const VolumeMoments moments = volumeMoments(star);
   const VolumeMoments larger =
       volumeMoments(moved(star, 4.0 * Matrix3::Identity(), Vector3::Zero()));
@@ -241,8 +242,8 @@ TEST(VolumeMoments, ScaleWithTheThirdAndTheFifthPowerOfLength) {
 TEST(VolumeMoments, TwoBodiesAddUp) {
   std::mt19937 engine(8);
   for (int n = 0; n < 20; ++n) {
-    const TriangleMesh a = starMesh(engine);
-    const TriangleMesh b = moved(starMesh(engine), randomRotation(engine), {3.5, 0.0, 0.0});
+    const PolygonMesh a = starMesh(engine);
+    const PolygonMesh b = moved(starMesh(engine), randomRotation(engine), {3.5, 0.0, 0.0});
     const VolumeMoments of_a = volumeMoments(a);
     const VolumeMoments of_b = volumeMoments(b);
     VolumeMoments expected;
@@ -259,7 +260,7 @@ TEST(VolumeMoments, TwoBodiesAddUp) {
 }
 
 TEST(VolumeMoments, ACavityIsTakenAway) {
-  const TriangleMesh wall = turnedOver(boxMesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}));
+  const PolygonMesh wall = turnedOver(boxMesh({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}));
   const VolumeMoments moments = volumeMoments(joined(boxMesh(-2.0 * kOne, 2.0 * kOne), wall));
   EXPECT_NEAR(moments.volume, 63.0, 1e-13);
   EXPECT_LT(norm(moments.centroid + 0.5 / 63.0 * kOne), 1e-15);
@@ -268,9 +269,9 @@ TEST(VolumeMoments, ACavityIsTakenAway) {
 // A face may start at any of its corners.
 TEST(VolumeMoments, DoNotDependOnTheFirstCornerOfATriangle) {
   std::mt19937 engine(9);
-  TriangleMesh star = starMesh(engine);
+  PolygonMesh star = starMesh(engine);
   const VolumeMoments before = volumeMoments(star);
-  for (auto& t : star.triangles) t = {t[1], t[2], t[0]};
+  for (auto& t : star.faces) t = {t[1], t[2], t[0]};
   EXPECT_LT(difference(volumeMoments(star), before), 1e-14);
 }
 

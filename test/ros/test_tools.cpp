@@ -246,6 +246,12 @@ TEST_F(Tools, MassPropertiesOfAMeshAndOfAScenario) {
     EXPECT_NEAR(body["center_of_mass"][i].as<double>(), 0.5, 1e-15);
     EXPECT_NEAR(body["principal_moments"][i].as<double>(), 2.0, 1e-13);
   }
+  const Outcome scaled = run("mass_properties --scale 0.5 test/data/cube.obj --mass 12 --json");
+  EXPECT_EQ(scaled.status, 0) << scaled.output;
+  EXPECT_EQ(YAML::Load(scaled.output)["volume"].as<double>(), 0.125);
+  const Outcome large = run("mass_properties test/data/cube.obj --scale 600 600 600");
+  EXPECT_EQ(large.output.find("mass_properties: mesh file 'test/data/cube.obj': encloses "), 0U)
+      << large.output;
   const YAML::Node dense =
       YAML::Load(run("mass_properties test/data/cube.obj --density 500 -j").output);
   EXPECT_NEAR(dense["mass"].as<double>(), 500.0, 1e-12);
@@ -308,12 +314,17 @@ TEST_F(Tools, ErrorsAreOneLineAndStatusOne) {
       {"replay", "replay: the option '--bag' is required but missing\n"},
       {"replay {}no.bag",
        "replay: " + folder_.file("no.bag") + ": cannot be read: No such file or directory\n"},
-      {"mass_properties", "mass_properties: the option '--file' is required but missing\n"},
+      {"mass_properties", "mass_properties: it takes one file: a scenario or a mesh\n"},
       {"mass_properties {}no.yaml",
        "mass_properties: " + folder_.file("no.yaml") + ": there is no such file\n"},
       {"mass_properties test/data/cube.obj --mass x",
        "mass_properties: the argument ('x') for option '--mass' is invalid\n"},
       {"closest test/data/cube.obj", "closest: it takes two mesh files\n"},
+      {"closest test/data/cube.obj --scale 2", "closest: it takes two mesh files\n"},
+      {"closest test/data/cube.obj --scale 0 test/data/cube.obj",
+       "closest: --scale 0: must be greater than 0 and finite\n"},
+      {"mass_properties test/data/cube.obj a.obj",
+       "mass_properties: it takes one file: a scenario or a mesh\n"},
       {"closest test/data/cube.obj {}no.obj",
        "closest: mesh file '" + folder_.file("no.obj") + "': does not exist or cannot be read\n"},
       {"closest test/data/cube.obj test/data/cube.obj --pose-b 1 2",

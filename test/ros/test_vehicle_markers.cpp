@@ -148,6 +148,38 @@ TEST(VehicleMarkers, ACraftByNumbersIsDrawnAboutItsCentreOfMass) {
   expectAt(markers[1].pose.position, {0.01 + 0.25 * edges.x(), 0.02, 0.03});
 }
 
+TEST(VehicleMarkers, AVisualIsDrawnInPlaceOfThePartsWithItsOwnColours) {
+  hovercraft::VehicleScenario with_visual =
+      hovercraft::testing::parsed(hovercraft::testing::scenarioOfParts()).vehicles.front();
+  with_visual.visual = {"package://shapes/craft.dae", {0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}, {}};
+  with_visual.visual->rpy = {0.0, 0.0, std::acos(0.0)};
+  const std::vector<Marker> markers = craftMarkers(with_visual);
+  ASSERT_EQ(markers.size(), 1U + 3U);
+  EXPECT_EQ(markers[0].type, Marker::MESH_RESOURCE);
+  EXPECT_EQ(markers[0].mesh_resource, "package://shapes/craft.dae");
+  EXPECT_EQ(markers[0].mesh_use_embedded_materials, 1);
+  EXPECT_EQ(markers[0].color.a, 0.0F);
+  EXPECT_EQ(markers[0].scale.y, 0.2);
+  EXPECT_EQ(markers[0].pose.position.z, 3.0);
+  EXPECT_NEAR(markers[0].pose.orientation.z, std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(markers[0].header.frame_id, "alpha/base_link");
+}
+
+// An obstacle at (50, 0, 0), turned a quarter about z, whose visual lies 1 m along its own x.
+TEST(VehicleMarkers, TheVisualOfAnObstacleLiesInItsFrame) {
+  const hovercraft::Scenario scenario = hovercraft::testing::parsed(
+      hovercraft::testing::validScenario() +
+      "world:\n  obstacles: {block: {box: {size: [1, 1, 1]}, position: [50, 0, 0], rpy: [0, 0, "
+      "1.5707963267948966], visual: {file: /a.dae, position: [1, 0, 0]}}}\n");
+  const std::vector<Marker> markers = obstacleMarkers(scenario, "world");
+  ASSERT_EQ(markers.size(), 1U);
+  EXPECT_EQ(markers[0].mesh_resource, "file:///a.dae");
+  EXPECT_TRUE(markers[0].points.empty());
+  EXPECT_NEAR(markers[0].pose.position.x, 50.0, 1e-15);
+  EXPECT_NEAR(markers[0].pose.position.y, 1.0, 1e-15);
+  EXPECT_NEAR(markers[0].pose.orientation.z, std::sqrt(0.5), 1e-15);
+}
+
 TEST(VehicleMarkers, AnEngineOfNoThrustIsNotBuiltIn) {
   hovercraft::VehicleScenario without = craft();
   const std::size_t before = craftMarkers(without).size();

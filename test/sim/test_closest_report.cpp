@@ -145,6 +145,18 @@ TEST(ClosestReport, RefusesBadPosesAndMeshes) {
   EXPECT_NO_THROW(closestReport(request));
 }
 
+// Cubes of 0.001 m whose origins are 0.01 m apart: 0.009 m to the last digits of a double.
+TEST(ClosestReport, TheScaleIsOfBothMeshes) {
+  ClosestRequest request = cubes();
+  request.scale = Vector3::Constant(0.001);
+  request.pose_b = {0.01, 0, 0, 0, 0, 0, 1};
+  std::vector<std::string> notes;
+  const std::string text = closestReport(request, &notes);
+  const std::string key = "\"distance\": ";
+  EXPECT_NEAR(std::stod(text.substr(text.find(key) + key.size())), 0.009, 1e-17);
+  EXPECT_TRUE(notes.empty());
+}
+
 TEST(ClosestReport, HullTakesAnOpenMesh) {
   ClosestRequest request = cubes();
   request.mesh_b = "test/data/open_cube.obj";

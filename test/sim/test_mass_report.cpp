@@ -167,6 +167,33 @@ TEST(MassReport, ThereIsNoMinusZero) {
   EXPECT_EQ(toJson({body}).find("-0"), std::string::npos) << toJson({body});
 }
 
+// 1 m³ times 0.001³ of 1000 kg/m³; a cube has m a²/6.
+TEST(MassReport, AMeshMayHaveAScale) {
+  MassReportRequest request = requestFor("test/data/cube.obj");
+  request.density = 1000.0;
+  request.scale = Vector3::Constant(0.25);
+  const BodyReport body = bodiesOf(request, noScenario).front();
+  EXPECT_EQ(body.volume, 1.0 / 64.0);
+  EXPECT_EQ(body.properties.mass, 1000.0 / 64.0);
+  EXPECT_NEAR(body.properties.I_BBo_B(2, 2), 1000.0 / 64.0 / 16.0 / 6.0, 1e-15);
+  EXPECT_TRUE(body.notes.empty());
+  request.file = "two.yaml";
+  request.density.reset();
+  EXPECT_EQ(messageOf(request),
+            "--scale: is for a mesh; in two.yaml a mesh has a scale of its own");
+}
+
+TEST(MassReport, ABodyThatWeighsWhatNoCraftWeighsIsAskedAbout) {
+  MassReportRequest request = requestFor("test/data/cube.obj");
+  EXPECT_TRUE(bodiesOf(request, noScenario).front().notes.empty());
+  request.scale = Vector3::Constant(600.0);
+  const BodyReport body = bodiesOf(request, noScenario).front();
+  ASSERT_EQ(body.notes.size(), 1U);
+  EXPECT_EQ(body.notes[0],
+            "mesh file 'test/data/cube.obj': encloses 2.16e+08 m^3 and weighs 2.16e+08 kg, which "
+            "no craft does: is the file in millimetres? Then take the scale 0.001");
+}
+
 TEST(MassReport, DensityAndMassExcludeEachOther) {
   MassReportRequest request = requestFor("test/data/cube.obj");
   request.density = 1.0;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/geometry/polygon_mesh.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -37,9 +37,9 @@ HOVERCRAFT_PUBLIC MassProperties coneMassProperties(double mass, double radius, 
 
 /// The homogeneous solid inside a closed surface (it passes checkClosed()); H is the frame of the
 /// mesh. @param mass kg. @throws std::invalid_argument if it is not positive and finite.
-HOVERCRAFT_PUBLIC MassProperties meshMassProperties(const TriangleMesh& mesh, double mass);
+HOVERCRAFT_PUBLIC MassProperties meshMassProperties(const PolygonMesh& mesh, double mass);
 /// Likewise. @param density kg/m³.
-HOVERCRAFT_PUBLIC MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh,
+HOVERCRAFT_PUBLIC MassProperties meshMassPropertiesOfDensity(const PolygonMesh& mesh,
                                                              double density);
 
 /// The same solid in a frame G from which H is turned by R_GH and moved by p_GH.

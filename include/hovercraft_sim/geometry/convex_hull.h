@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
-#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/geometry/polygon_mesh.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -21,15 +21,14 @@ HOVERCRAFT_PUBLIC ConvexPolyhedron convexHull(const std::vector<Vector3>& points
 /// What to do with a mesh that is not convex.
 enum class NonConvexMesh { kRefuse, kTakeHull };
 
-/// The body inside a triangle mesh. Coplanar triangles become one face. The mesh counts as convex
+/// The body inside a mesh. Coplanar faces become one. The mesh counts as convex
 /// if it encloses the volume of its hull and no edge at which it bends inward lies under the
 /// surface of that, both up to the rounding of the coordinates in mesh files (kMeshDentSlack,
 /// kMeshDentDepth): a dent no deeper is rounding, not a shape, and is filled.
 /// @param mesh passes checkClosed(), unless its hull is taken. @param name begins every message.
-/// @throws std::invalid_argument naming the vertex farthest outside the plane of a triangle if the
+/// @throws std::invalid_argument naming the vertex farthest outside the plane of a face if the
 /// mesh is not convex and that is not wanted.
-HOVERCRAFT_PUBLIC ConvexPolyhedron polyhedronFromMesh(const TriangleMesh& mesh,
-                                                      NonConvexMesh choice,
+HOVERCRAFT_PUBLIC ConvexPolyhedron polyhedronFromMesh(const PolygonMesh& mesh, NonConvexMesh choice,
                                                       const std::string& name);
 
 }  // namespace hovercraft

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/geometry/polygon_mesh.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -13,14 +13,16 @@ struct VolumeMoments {
   Matrix3 second_about_centroid = Matrix3::Zero();  // ∫ r rᵀ dV, r from the centroid, m⁵
 };
 
-/// Exact integrals over a polyhedron: the sum over the signed tetrahedra that its triangles span
-/// with a point (the divergence theorem), each by the closed form of Blow and Binstock (2004), "How
-/// to find the inertia tensor (or other mass properties) of a 3D solid body represented by a
-/// triangle mesh". The point is the centroid itself, so that nothing cancels far from the origin.
+/// Exact integrals over a polyhedron: the sum over the signed tetrahedra that the triangles
+/// of its faces (the fan from the first vertex, also of a face that is not convex: what lies
+/// outside it counts negative) span with a point (the divergence theorem), each by the closed form
+/// of Blow and Binstock (2004), "How to find the inertia tensor (or other mass properties) of a 3D
+/// solid body represented by a triangle mesh". The point is the centroid itself, so that nothing
+/// cancels far from the origin.
 /// @param mesh passes checkClosed(). @throws std::logic_error if its volume is not positive.
-HOVERCRAFT_PUBLIC VolumeMoments volumeMoments(const TriangleMesh& mesh);
+HOVERCRAFT_PUBLIC VolumeMoments volumeMoments(const PolygonMesh& mesh);
 
-/// The volume alone, m³: negative for a surface that is inside out, 0 for one without triangles.
-HOVERCRAFT_PUBLIC double signedVolume(const TriangleMesh& mesh);
+/// The volume alone, m³: negative for a surface that is inside out, 0 for one without faces.
+HOVERCRAFT_PUBLIC double signedVolume(const PolygonMesh& mesh);
 
 }  // namespace hovercraft

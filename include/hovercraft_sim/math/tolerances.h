@@ -25,9 +25,32 @@ constexpr double kInertiaSlack = 1e-5;
 /// exact to a few units in the last place of the largest one.
 constexpr double kSingularInertia = 1e-14;
 
-/// How exactly assimp keeps a coordinate of a mesh file, relative to it (-): single precision
-/// (6e-8) and the rounding of its number parser; the worst of 90,000 random numbers was 1.6e-7.
+/// How exactly a mesh file says where a vertex was meant to be, relative to the greatest coordinate
+/// (-): exporters compute in single precision (6e-8), and some print six or seven digits of that.
 constexpr double kMeshCoordinate = 2e-7;
+
+/// Rounding of a number to single precision, as binary STL has it, relative to it (-): 2^-24.
+constexpr double kSingleRounding = 5.97e-8;
+
+/// What rounding makes of a sum of products of coordinates, relative to the greatest of these (-):
+/// some nine roundings of 1.1e-16.
+constexpr double kDoubleRounding = 1e-15;
+
+/// How far apart (-, of the longest edge of the box around a mesh, along each axis) two vertices on
+/// open edges may lie that were meant to be one: a unit of the sixth digit of a coordinate, the
+/// fewest that exporters print.
+constexpr double kWeldDistance = 1e-5;
+
+/// Greatest coordinate (m) of a mesh: the fifth powers that its inertia is summed of stay far below
+/// the largest double, 1.8e308.
+constexpr double kMostMeshCoordinate = 1e50;
+
+/// Most shells of a mesh: each is compared with all others, some seconds for so many.
+constexpr std::size_t kMostShells = 20000;
+
+/// Greatest length (bytes) of a mesh file, some five million triangles of binary STL: what is made
+/// of it in memory takes some ten times as much.
+constexpr std::size_t kMostMeshBytes = 256U << 20U;
 
 /// How well the volume of a mesh must be known for its mass properties to be of use (-): thin or
 /// far-off meshes lose it to the rounding of coordinates.

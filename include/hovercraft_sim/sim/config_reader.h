@@ -39,6 +39,8 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   void allowOnly(std::initializer_list<const char*> keys) const;
 
   bool has(const char* key) const;
+  /// Whether there is a map behind `key`.
+  bool isMap(const char* key) const;
   /// The map behind `key`.
   ConfigReader map(const std::string& key) const;
   /// Every (key, map) pair of this map, in the order of the keys.
@@ -57,6 +59,8 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   Vector3 lengths(const char* key) const;
   Vector3 vectorOr(const Vector3& fallback, const char* key,
                    const NumberRule& rule = kAnyNumber) const;
+  /// Three numbers, or one that stands for all of them.
+  Vector3 numberOrVector(const char* key, const NumberRule& rule) const;
   bool flagOr(bool fallback, const char* key) const;
   std::string text(const char* key) const;
   /// The index of the text behind `key` among `choices`.

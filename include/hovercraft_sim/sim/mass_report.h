@@ -13,9 +13,10 @@ namespace hovercraft {
 
 /// The mass properties of one body, as the tool `mass_properties` shows them.
 struct BodyReport {
-  std::string vehicle;           // its name; empty for a mesh file
-  MassProperties properties;     // H: the hull frame, or the frame of the mesh file
-  std::optional<double> volume;  // m³; unknown where mass and inertia were given by hand
+  std::string vehicle;                  // its name; empty for a mesh file
+  MassProperties properties;            // H: the hull frame, or the frame of the mesh file
+  std::optional<double> volume;         // m³; unknown where mass and inertia were given by hand
+  std::vector<std::string> notes = {};  // what the user should know of a mesh file
 };
 
 /// What the tool `mass_properties` was asked for.
@@ -23,6 +24,7 @@ struct MassReportRequest {
   std::string file;               // a scenario if it ends in .yaml or .yml, else a mesh
   std::optional<double> density;  // kg/m³, of a mesh; 1 if neither this nor the mass is given
   std::optional<double> mass;     // kg, of a mesh
+  std::optional<Vector3> scale;   // of the coordinates of a mesh to m; 1 if it is not given
   std::string vehicle;            // of a scenario; empty: every one
   bool json = false;
 };

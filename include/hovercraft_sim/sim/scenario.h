@@ -36,7 +36,8 @@ struct SphereShape {
   double radius;
 };
 struct MeshShape {
-  std::string file;  // as resolved: an absolute path
+  std::string file;                 // as resolved: an absolute path
+  Vector3 scale = Vector3::Ones();  // of its coordinates to m
 };
 
 /// One homogeneous part of a craft, placed in the hull frame H.
@@ -60,6 +61,14 @@ struct HullScenario {
   Vector3 rpy = Vector3::Zero();   // rad
 };
 
+/// What RViz draws in place of a body's shapes: a mesh of any format that it reads.
+struct VisualScenario {
+  std::string resource;             // URL: package://, file://, ...
+  Vector3 scale = Vector3::Ones();  // of its coordinates to m
+  Vector3 p_HV = Vector3::Zero();   // position in the frame of the body, m
+  Vector3 rpy = Vector3::Zero();    // rad
+};
+
 /// One craft. Parts and engines are placed in the hull frame H (base_link); the initial motion is
 /// that of the body frame B at the centre of mass, in W.
 struct VehicleScenario {
@@ -69,8 +78,9 @@ struct VehicleScenario {
   std::array<EngineParameters, kEngineCount> engines;
   Drag drag;
   std::optional<HullScenario>
-      hull;                  // none: the convex hull of the parts, in a scenario with a world
-  std::size_t material = 0;  // index into WorldScenario::materials
+      hull;  // none: the convex hull of the parts, in a scenario with a world
+  std::optional<VisualScenario> visual;
+  std::size_t material = 0;                // index into WorldScenario::materials
   Vector3 initial_p_WB = Vector3::Zero();  // m
   Vector3 initial_rpy = Vector3::Zero();   // rad
   Vector3 initial_v_WB = Vector3::Zero();  // m/s
@@ -91,7 +101,8 @@ struct MaterialPairScenario {
 
 struct ObstacleScenario {
   std::string name;
-  HullScenario hull;  // placed in W
+  HullScenario hull;                     // placed in W
+  std::optional<VisualScenario> visual;  // placed in the frame of the hull's shape
   std::size_t material = 0;
 };
 

@@ -19,6 +19,9 @@ struct ScenarioSource {
       directory;  // of relative mesh paths; empty: a path must be absolute or a package:// URL
   /// Folder of a ROS package, empty if there is none; not set: package:// URLs are refused.
   std::function<std::string(const std::string& package)> package_folder;
+  /// Called with what the user should know of a scenario that is in order, one line each, such as
+  /// what was made of a mesh file; not set: nobody is told.
+  std::function<void(const std::string& note)> note = {};
 };
 
 /// Checks a whole scenario. @param tree of treeOf().
@@ -33,12 +36,12 @@ HOVERCRAFT_PUBLIC Scenario parseScenario(const std::string& text, const Scenario
                                          const OverrideList& overrides = {});
 
 /// Reads the file and parses it; relative mesh paths start from its folder.
-/// @param package_folder see ScenarioSource.
+/// @param package_folder, note see ScenarioSource.
 /// @param overrides as parseScenario().
 /// @throws std::invalid_argument also if the file cannot be read or is not YAML.
 HOVERCRAFT_PUBLIC Scenario loadScenario(
     const std::string& path, std::function<std::string(const std::string&)> package_folder = {},
-    const OverrideList& overrides = {});
+    const OverrideList& overrides = {}, std::function<void(const std::string&)> note = {});
 
 /// The scenario with every default written out, numbers as the shortest text that gives the same
 /// bits, keys in a fixed order: parsing it gives the same scenario to the last bit. A craft with a

@@ -7,9 +7,6 @@
 
 namespace hovercraft {
 
-/// The path of a mesh that a reader's `file` names. @throws std::invalid_argument
-std::string meshPath(const ConfigReader& reader, const ScenarioSource& source);
-
 /// Name, mass, drag and initial motion, of a craft or a loose body.
 /// @throws std::invalid_argument
 VehicleScenario parseMovingBody(const std::string& name, const ConfigReader& reader,
