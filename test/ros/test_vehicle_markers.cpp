@@ -94,8 +94,8 @@ TEST(VehicleMarkers, AMeshIsDrawnFromItsFile) {
   source.name = "test.yaml";
   source.directory = (std::filesystem::current_path() / "test/data").string();
   const auto scenario = hovercraft::parseScenario(
-      YAML::Load(hovercraft::testing::with(hovercraft::testing::validScenario(),
-                                           hovercraft::testing::kMassByNumbers, part)),
+      hovercraft::testing::with(hovercraft::testing::validScenario(),
+                                hovercraft::testing::kMassByNumbers, part),
       source);
   const Marker mesh = craftMarkers(scenario.vehicles.front()).front();
   EXPECT_EQ(mesh.type, Marker::MESH_RESOURCE);

@@ -74,6 +74,7 @@ TEST_F(PlayedFlight, AtAPaceTheyActAtTheSame) {
 }
 
 TEST_F(PlayedFlight, AResetForgetsWhatWasScheduled) {
+  const Flight before(kFreeNode);  // at tick 0
   hovercraft_sim::ScheduleCommands call;
   call.request.vehicle = "hovercraft";
   ASSERT_TRUE(ros::service::call("/free/hovercraft_sim/schedule", call));
