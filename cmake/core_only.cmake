@@ -13,7 +13,9 @@ foreach(module architecture math geometry body hovercraft collision contact worl
   file(GLOB test_sources CONFIGURE_DEPENDS test/${module}/test_*.cpp)
   set(target ${PROJECT_NAME}_test_${module})
   add_executable(${target} ${test_sources} test/main.cpp)
-  target_link_libraries(${target} hovercraft_core GTest::GTest Threads::Threads)
+  # They reach what the shared library keeps to itself: its objects.
+  target_link_libraries(${target} hovercraft_core_objects GTest::GTest Threads::Threads)
+  hovercraft_unity(${target} tests ${test_sources})
   add_test(NAME ${module} COMMAND ${target} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 endforeach()
 target_sources(${PROJECT_NAME}_test_determinism PRIVATE test/determinism/recorded_runs.cpp)

@@ -1,5 +1,7 @@
-# The ROS-free core: what it needs, how it is compiled, and the target hovercraft_core. The package includes this, and so
-# does test/determinism, which builds the core without ROS; both find Eigen and Boost before.
+# The ROS-free core: what it needs, how it is compiled, and the targets hovercraft_core_objects and hovercraft_core. The package
+# includes this, and so does test/determinism, which builds the core without ROS; both find Eigen and Boost before.
+
+include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
 
 option(HOVERCRAFT_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 option(HOVERCRAFT_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
@@ -37,10 +39,27 @@ include_directories(SYSTEM ${EIGEN3_INCLUDE_DIRS} ${qhull_include_dir})
 
 # Every module up to sim.
 get_filename_component(hovercraft_root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
-set(core_sources)
+set(hovercraft_core_sources)
 foreach(module math geometry body hovercraft collision contact world sim)
   file(GLOB module_sources CONFIGURE_DEPENDS ${hovercraft_root}/src/${module}/*.cpp)
-  list(APPEND core_sources ${module_sources})
+  set(sources_of_${module} ${module_sources})
+  list(APPEND hovercraft_core_sources ${module_sources})
 endforeach()
-add_library(hovercraft_core ${core_sources})
-target_link_libraries(hovercraft_core ${yaml_cpp_target} fmt::fmt PkgConfig::assimp ${qhull_library})
+# hovercraft_shared_library(NAME LIBRARY...): NAME_objects, compiled once from the sources in NAME_sources, and of them the library NAME.
+# It is always a shared one, and hands out only what HOVERCRAFT_PUBLIC marks (export.h): in a static one the linker would take an
+# inline function or an instance of a template from the program's objects, whatever they were compiled with.
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(exported_symbols ${CMAKE_CURRENT_LIST_DIR}/exported_symbols.map)
+function(hovercraft_shared_library name)
+  add_library(${name}_objects OBJECT ${${name}_sources})
+  target_link_libraries(${name}_objects ${ARGN})
+  add_library(${name} SHARED $<TARGET_OBJECTS:${name}_objects>)
+  target_link_libraries(${name} ${ARGN} -Wl,-Bsymbolic-functions -Wl,--version-script=${exported_symbols})
+  set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX LINK_DEPENDS ${exported_symbols})
+endfunction()
+
+hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt PkgConfig::assimp ${qhull_library})
+foreach(module math geometry body hovercraft collision contact world sim)
+  hovercraft_unity(hovercraft_core_objects ${module} ${sources_of_${module}})
+endforeach()

@@ -10,6 +10,7 @@
 #include <geometry_msgs/Quaternion.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <nav_msgs/Odometry.h>
+#include <ros/console.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
 #include <ros/single_subscriber_publisher.h>
@@ -34,14 +35,22 @@ hovercraft_sim::ThrustCommand thrusts(const nav_msgs::Odometry& odometry, double
   return command;
 }
 
+/// A private parameter, if it is there. NodeHandle::param() would pass over a text in silence.
+bool read(const ros::NodeHandle& own, const char* name, double& value) {
+  if (!own.hasParam(name) || own.getParam(name, value)) return true;
+  ROS_FATAL("%s: must be a number", own.resolveName(name).c_str());
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "hold_heading");
   ros::NodeHandle node;
   const ros::NodeHandle own("~");
-  const double heading = own.param("heading", 0.0);  // rad
-  const double speed = own.param("speed", 1.0);      // m/s
+  double heading = 0.0;  // rad
+  double speed = 1.0;    // m/s
+  if (!read(own, "heading", heading) || !read(own, "speed", speed)) return 1;
   // The simulation waits for the first answer even if it came before its connection. A latched
   // topic would not do: roscpp loses what it publishes at the very moment of the connection.
   hovercraft_sim::ThrustCommand last;

@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC2034
 # Shared by the scripts in this folder; sourced, never run. It moves to the root of the checkout, takes an
-# environment in which ROS 1 works, and offers: install_packages PURPOSE..., enter_ros, free_port, note, fail.
+# environment in which ROS 1 works, and offers: install_packages PURPOSE..., configure SOURCE BUILD, enter_ros, require_localhost, free_port,
+# beside COMMAND..., all_beside, note, fail.
 #
 # Packages come from Debian's own archive (11 to 13; Ubuntu from 22.04 on carries the same in universe) or, on
 # Ubuntu 20.04, from the ROS archive (Noetic).
@@ -51,7 +52,8 @@ packages_for() {
     core) common='g++ make cmake pkg-config libassimp-dev libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
     build) common="$(packages_for core) libboost-program-options-dev" ;;
-    test) common="$(packages_for clang) libbenchmark-dev libgtest-dev" ;;
+    fast) common='ccache ninja-build' ;;
+    test) common="$(packages_for clang) $(packages_for fast) libbenchmark-dev libgtest-dev" ;;
     # The versions that decide; clang-tidy 22 takes half the time of 14 (scripts/clang_tidy.py).
     lint) common='clang-format-14 clang-tidy-22 catkin-lint' ;;
     core_test) common='libgtest-dev' ;;
@@ -76,7 +78,8 @@ packages_of_debian() {
       python3-rostopic rosbash rosout ;;
     # The runtime of clang's sanitizers; before, it was part of what clang depends on.
     clang) case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac ;;
-    test) echo librostest-dev python3-rostest python3-rosnode python3-rosmsg python3-tf2-ros ;;
+    demo) echo python3-rostest ;;
+    test) echo librostest-dev python3-rosnode python3-rosmsg python3-tf2-ros ;;
     rviz) echo rviz ;;
   esac
 }
@@ -85,7 +88,8 @@ packages_of_noetic() {
   case "$1" in
     build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs message-generation nav-msgs rosbag rosbash \
       roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic std-msgs std-srvs tf2-msgs tf2-ros visualization-msgs ;;
-    test) printf 'ros-noetic-%s ' rostest rosnode rosmsg rosservice ;;
+    demo) echo ros-noetic-rostest ;;
+    test) printf 'ros-noetic-%s ' rosnode rosmsg rosservice ;;
     rviz) printf 'ros-noetic-%s ' rviz ;;
   esac
 }
@@ -147,8 +151,47 @@ TEXT
   exit 1
 }
 
+# beside COMMAND...: runs the command beside what comes next, once a processor is free. all_beside waits for those that began, prints what they
+# said in the order in which they did, and fails if one of them failed.
+beside_answers=()
+beside() {
+  [[ -n ${beside_folder:-} ]] || beside_folder=$(mktemp -d)
+  local answer=$beside_folder/${#beside_answers[@]}
+  beside_answers+=("$answer")
+  while [[ $(jobs -pr | wc -l) -ge $JOBS ]]; do wait -n || true; done
+  { "$@" && touch "$answer.passed"; } > "$answer" 2>&1 &
+}
+
+all_beside() {
+  local answer all_passed=yes
+  wait
+  for answer in ${beside_answers[@]+"${beside_answers[@]}"}; do
+    cat "$answer"
+    [[ -e $answer.passed ]] || all_passed=no
+  done
+  rm -rf "${beside_folder:-}"
+  beside_folder='' beside_answers=()
+  [[ $all_passed == yes ]]
+}
+
+# configure SOURCE BUILD OPTION...: by CMake, with what makes builds fast where it is there. ccache keeps what was compiled in
+# $XDG_CACHE_HOME/hovercraft_sim (~/.cache/hovercraft_sim), which a CI may keep from run to run: it goes by content.
+configure() {
+  local source=$1 folder=$2 fast=()
+  shift 2
+  if command -v ccache > /dev/null; then
+    export CCACHE_DIR=${CCACHE_DIR:-${XDG_CACHE_HOME:-$HOME/.cache}/hovercraft_sim/ccache}
+    export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1 CCACHE_DEPEND=1 CCACHE_MAXSIZE=${CCACHE_MAXSIZE:-2G}
+    fast+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  # A folder keeps the generator that it was configured with.
+  if command -v ninja > /dev/null && [[ ! -f $folder/CMakeCache.txt ]]; then fast+=(-G Ninja); fi
+  cmake -S "$source" -B "$folder" ${fast[@]+"${fast[@]}"} "$@"
+}
+
 # Takes ROS into the environment where it lies outside /usr.
 enter_ros() {
+  require_localhost
   if [[ $(system_family) == noetic ]]; then
     set +u
     # shellcheck disable=SC1091
@@ -157,7 +200,14 @@ enter_ros() {
   fi
 }
 
-# A TCP port of this machine that nobody listens on, for a roscore of our own beside any other.
+# This machine finds itself by the name that the nodes give each other.
+require_localhost() {
+  getent ahostsv4 "$ROS_HOSTNAME" > /dev/null ||
+    fail "the name $ROS_HOSTNAME cannot be resolved, by which ROS nodes find each other: put \"127.0.0.1 $ROS_HOSTNAME\" into /etc/hosts"
+}
+
+# A TCP port of this machine that nobody listens on, for a roscore of our own beside any other. A failure ends the script, but only
+# in an assignment of its own: port=$(free_port).
 free_port() {
-  python3 -c 'import socket; s = socket.socket(); s.bind(("localhost", 0)); print(s.getsockname()[1])'
+  python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'
 }

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Draws a recorded run, path, speeds and thrusts, and prints its numbers.
 
-usage: plot_run.py RUN.bag [-o run.png] [--vehicle NAME]
+usage: plot_run.py RUN.bag|RUN.csv [-o run.png] [--vehicle NAME]
 
-Reads <vehicle>/pose (path in world axes), <vehicle>/twist (velocity in the axes of base_link) and, where it was
-recorded, <vehicle>/engines (thrusts) from a bag. No ROS master is needed.
+From a bag it reads <vehicle>/pose (path in world axes), <vehicle>/twist (velocity in the axes of base_link) and, where it was
+recorded, <vehicle>/engines (thrusts). From a states CSV of simulate it reads the motion of the centre of mass of one craft or
+loose body; thrusts are not in it. No ROS master is needed.
 """
 
 import argparse
+import csv
 import math
 import sys
 
@@ -23,52 +25,27 @@ COLOURS = {'rear': '#0072b2', 'left': '#d55e00', 'right': '#009e73'}
 HEADING_INTERVAL = 1.0  # s of simulated time between two arrows on the path
 
 
-class Run:
-    """What a bag says about one vehicle, as arrays; times in s from the first pose."""
+MOTION_COLUMNS = 'x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz'.split(',')
 
-    def __init__(self, path, vehicle=None):
-        poses, twists, engines = [], [], []
-        with rosbag.Bag(path) as bag:
-            topics = bag.get_type_and_topic_info().topics
-            self.vehicle = vehicle or self._only_vehicle(path, topics)
-            self.in_simulated_time = '/clock' in topics
-            names = {f'/{self.vehicle}/{name}': rows
-                     for name, rows in (('pose', poses), ('twist', twists), ('engines', engines))}
-            for topic, message, received in bag.read_messages(topics=list(names)):
-                names[topic].append(self._row(topic, message, received))
-        if len(poses) < 2 or len(twists) < 2:
-            raise ValueError(f'{path}: fewer than two messages on /{self.vehicle}/pose or /{self.vehicle}/twist')
-        poses, twists = np.array(poses), np.array(twists)
+
+def yaw_of(x, y, z, w):
+    return np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+
+
+class Run:
+    """What was recorded of one vehicle, as arrays; times in s from the first pose.
+
+    poses: rows of stamp, time of receipt (both s), x, y (m, in the world), yaw (rad). twists: rows of stamp, time of receipt, velocity
+    forward and to the left (m/s), yaw rate (rad/s), in the axes of the craft. engines: rows of stamp, time of receipt, three
+    commanded and three applied thrusts (N). in_simulated_time: the time of receipt is no wall time.
+    """
+
+    def __init__(self, vehicle, poses, twists, engines, in_simulated_time):
+        self.vehicle, self.in_simulated_time = vehicle, in_simulated_time
         start = poses[0, 0]
         self.time, self.received, self.xy, self.yaw = poses[:, 0] - start, poses[:, 1], poses[:, 2:4], poses[:, 4]
         self.twist_time, self.velocity, self.yaw_rate = twists[:, 0] - start, twists[:, 2:4], twists[:, 4]
-        engines = np.array(engines).reshape(-1, 8)
         self.engine_time, self.commanded, self.applied = engines[:, 0] - start, engines[:, 2:5], engines[:, 5:8]
-
-    @staticmethod
-    def _only_vehicle(path, topics):
-        """The one that has pose and twist: a loose body has a pose alone."""
-        def with_topic(name, kind):
-            return {topic[1:-len(name)] for topic, info in topics.items()
-                    if topic.endswith(name) and info.msg_type == kind}
-        found = sorted(with_topic('/pose', 'geometry_msgs/PoseStamped') &
-                       with_topic('/twist', 'geometry_msgs/TwistStamped'))
-        if len(found) != 1:
-            raise ValueError(f"{path}: vehicles with pose and twist: {', '.join(found) or 'none'}" +
-                             ('; choose one with --vehicle' if found else ''))
-        return found[0]
-
-    @staticmethod
-    def _row(topic, message, received):
-        times = [message.header.stamp.to_sec(), received.to_sec()]
-        if topic.endswith('/pose'):
-            position, q = message.pose.position, message.pose.orientation
-            yaw = math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z))
-            return times + [position.x, position.y, yaw]
-        if topic.endswith('/twist'):
-            return times + [message.twist.linear.x, message.twist.linear.y, message.twist.angular.z]
-        engines = [getattr(message, name) for name in ENGINES]
-        return times + [engine.commanded for engine in engines] + [engine.applied for engine in engines]
 
     def distance(self):
         """The length of the path in m."""
@@ -81,6 +58,88 @@ class Run:
         """Simulated time per time on the clock of the recorder; None where that was the simulated clock itself."""
         recorded = self.received[-1] - self.received[0]
         return None if self.in_simulated_time or recorded <= 0 else float(self.time[-1] / recorded)
+
+
+def only_vehicle(path, topics):
+    """The one that has pose and twist: a loose body has a pose alone."""
+    def with_topic(name, kind):
+        return {topic[1:-len(name)] for topic, info in topics.items()
+                if topic.endswith(name) and info.msg_type == kind}
+    found = sorted(with_topic('/pose', 'geometry_msgs/PoseStamped') &
+                   with_topic('/twist', 'geometry_msgs/TwistStamped'))
+    if len(found) != 1:
+        raise ValueError(f"{path}: vehicles with pose and twist: {', '.join(found) or 'none'}" +
+                         ('; choose one with --vehicle' if found else ''))
+    return found[0]
+
+
+def message_row(topic, message, received):
+    times = [message.header.stamp.to_sec(), received.to_sec()]
+    if topic.endswith('/pose'):
+        position, q = message.pose.position, message.pose.orientation
+        return times + [position.x, position.y, yaw_of(q.x, q.y, q.z, q.w)]
+    if topic.endswith('/twist'):
+        return times + [message.twist.linear.x, message.twist.linear.y, message.twist.angular.z]
+    engines = [getattr(message, name) for name in ENGINES]
+    return times + [engine.commanded for engine in engines] + [engine.applied for engine in engines]
+
+
+def read_bag(path, vehicle):
+    poses, twists, engines = [], [], []
+    with rosbag.Bag(path) as bag:
+        topics = bag.get_type_and_topic_info().topics
+        vehicle = vehicle or only_vehicle(path, topics)
+        rows = {f'/{vehicle}/pose': poses, f'/{vehicle}/twist': twists, f'/{vehicle}/engines': engines}
+        for topic, message, received in bag.read_messages(topics=list(rows)):
+            rows[topic].append(message_row(topic, message, received))
+    if len(poses) < 2 or len(twists) < 2:
+        raise ValueError(f'{path}: fewer than two messages on /{vehicle}/pose or /{vehicle}/twist')
+    return Run(vehicle, np.array(poses), np.array(twists), np.array(engines).reshape(-1, 8), '/clock' in topics)
+
+
+def csv_rows(path):
+    """The rows of a states CSV, by the name of the craft or body: '' where the file holds a single craft."""
+    rows = {}
+    with open(path, newline='', encoding='utf-8') as file:
+        reader = csv.reader(file)
+        header = next(reader, [])
+        names = header[1:2] == ['vehicle']
+        if header != ['time'] + ['vehicle'] * names + MOTION_COLUMNS:
+            raise ValueError(f"{path}: the first line must be time,{','.join(MOTION_COLUMNS)}, with or without vehicle after time")
+        for row in reader:
+            if len(row) != len(header):
+                raise ValueError(f'{path}, line {reader.line_num}: {len(row)} fields, but the first line has {len(header)}')
+            try:
+                numbers = [float(text) for text in row[:1] + row[1 + names:]]
+            except ValueError as error:
+                raise ValueError(f'{path}, line {reader.line_num}: {error}') from None
+            if not all(map(math.isfinite, numbers)):
+                raise ValueError(f'{path}, line {reader.line_num}: a number is not finite')
+            rows.setdefault(row[1] if names else '', []).append(numbers)
+    return rows
+
+
+def read_csv(path, vehicle):
+    rows = csv_rows(path)
+    names = ', '.join(sorted(rows)) or 'none'
+    if vehicle is None and len(rows) > 1:
+        raise ValueError(f'{path}: vehicles and loose bodies: {names}; choose one with --vehicle')
+    if vehicle is not None and '' in rows:
+        raise ValueError(f'{path}: --vehicle {vehicle}: there is no column vehicle, the file holds one craft')
+    if vehicle is not None and vehicle not in rows:
+        raise ValueError(f'{path}: --vehicle {vehicle}: it holds {names}')
+    vehicle = next(iter(rows), '') if vehicle is None else vehicle
+    if len(rows.get(vehicle, [])) < 2:
+        raise ValueError(f'{path}: fewer than two states')
+    table = np.array(rows[vehicle])
+    time, x, y, (qx, qy, qz, qw), v, w = table[:, 0], table[:, 1], table[:, 2], table[:, 4:8].T, table[:, 8:11], table[:, 11:14]
+    # Columns are the axes of the body in the world: forward, left, up.
+    forward = np.column_stack([1 - 2 * (qy**2 + qz**2), 2 * (qx * qy + qz * qw), 2 * (qx * qz - qy * qw)])
+    left = np.column_stack([2 * (qx * qy - qz * qw), 1 - 2 * (qx**2 + qz**2), 2 * (qy * qz + qx * qw)])
+    up = np.column_stack([2 * (qx * qz + qy * qw), 2 * (qy * qz - qx * qw), 1 - 2 * (qx**2 + qy**2)])
+    poses = np.column_stack([time, time, x, y, yaw_of(qx, qy, qz, qw)])
+    twists = np.column_stack([time, time] + [np.sum(a * b, axis=1) for a, b in ((v, forward), (v, left), (w, up))])
+    return Run(vehicle or 'the only one', poses, twists, np.empty((0, 8)), True)
 
 
 def print_summary(run, out=sys.stdout):
@@ -164,13 +223,16 @@ def draw(run, output):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument('bag', help='a recorded run')
+    parser.add_argument('run', metavar='RUN', help='a bag of the run, or a states CSV of simulate')
     parser.add_argument('-o', '--output', default='run.png', help='the picture (default: %(default)s)')
-    parser.add_argument('--vehicle', help='its namespace; needed if the bag holds several')
+    parser.add_argument('--vehicle', help='its name; needed if the run holds several')
     arguments = parser.parse_args()
+    read = read_csv if arguments.run.lower().endswith('.csv') else read_bag
     try:
-        run = Run(arguments.bag, arguments.vehicle)
+        run = read(arguments.run, arguments.vehicle)
         draw(run, arguments.output)
+    except (UnicodeDecodeError, csv.Error) as error:
+        sys.exit(f'plot_run.py: {arguments.run}: {error}')
     except (ValueError, OSError, rosbag.ROSBagException) as error:
         sys.exit(f'plot_run.py: {error}')
     print_summary(run)

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "hovercraft_sim/geometry/convex_hull.h"
+#include "hovercraft_sim/math/constants.h"
 
 #include "test/collision/brute_force.h"
 #include "test/collision/random_bodies.h"
@@ -89,7 +90,7 @@ double trueDistance(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPol
 Scene makeScene(RandomBodies& random, int n, bool coherent) {
   const Vector3 axes(1.0, 0.7, 0.4);
   Scene scene{random.ellipsoidHull(n, axes), random.ellipsoidHull(n, axes), {}, {}, {}};
-  const double half_degree = 0.5 * 3.14159265358979323846 / 180.0;
+  const double half_degree = 0.5 * hovercraft::kPi / 180.0;
   const Quaternion turn_A = hovercraft::quaternionFromAxisAngle(random.unitVector(), half_degree);
   const Quaternion turn_B = hovercraft::quaternionFromAxisAngle(random.unitVector(), half_degree);
   Quaternion q_A = random.orientation();

@@ -77,7 +77,7 @@ std::string farObstacles(int count) {
 }
 
 Simulation simulationOf(const std::string& yaml) {
-  return Simulation(parseScenario(YAML::Load(yaml), {"bench", "", {}}));
+  return Simulation(parseScenario(yaml, {"bench", "", {}}));
 }
 
 /// ns per step, mean of a block.

@@ -50,7 +50,7 @@ std::string scenarioText(const BoxScene& scene) {
 class Ours : public BoxEngine {
  public:
   explicit Ours(const BoxScene& scene)
-      : simulation_(parseScenario(YAML::Load(scenarioText(scene)), {"bench", "", {}})),
+      : simulation_(parseScenario(scenarioText(scene), {"bench", "", {}})),
         body_(scene.boxes.size(), 0) {
     std::size_t body = 0;
     for (std::size_t i = 0; i < scene.boxes.size(); ++i) {

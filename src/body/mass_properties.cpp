@@ -7,13 +7,14 @@
 #include <Eigen/Eigenvalues>
 
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr const char* kAxisNames = "xyz";
 /// Bound on a component of a unit vector (-): just below 1/√3, so that one is always beyond it.
 /// Common directions, at multiples of 15° in a coordinate plane or along a diagonal, have none so
@@ -88,22 +89,27 @@ double firstLargeComponent(const Vector3& axis) {
 }  // namespace
 
 double boxVolume(const Vector3& size) {
+  const FloatingPointEnvironment environment;
   return size.x() * size.y() * size.z();
 }
 
 double sphereVolume(double radius) {
+  const FloatingPointEnvironment environment;
   return 4.0 / 3.0 * kPi * (radius * radius * radius);
 }
 
 double cylinderVolume(double radius, double length) {
+  const FloatingPointEnvironment environment;
   return kPi * (radius * radius) * length;
 }
 
 double coneVolume(double radius, double length) {
+  const FloatingPointEnvironment environment;
   return cylinderVolume(radius, length) / 3.0;
 }
 
 MassProperties boxMassProperties(double mass, const Vector3& size) {
+  const FloatingPointEnvironment environment;
   requirePositive(mass, "mass", "kg");
   for (int axis = 0; axis < 3; ++axis) requirePositive(size(axis), "size", "m");
   const double xx = size.x() * size.x();
@@ -113,6 +119,7 @@ MassProperties boxMassProperties(double mass, const Vector3& size) {
 }
 
 MassProperties sphereMassProperties(double mass, double radius) {
+  const FloatingPointEnvironment environment;
   requirePositive(mass, "mass", "kg");
   requirePositive(radius, "radius", "m");
   const double moment = 0.4 * mass * (radius * radius);
@@ -120,6 +127,7 @@ MassProperties sphereMassProperties(double mass, double radius) {
 }
 
 MassProperties cylinderMassProperties(double mass, double radius, double length) {
+  const FloatingPointEnvironment environment;
   requirePositive(mass, "mass", "kg");
   requirePositive(radius, "radius", "m");
   requirePositive(length, "length", "m");
@@ -128,6 +136,7 @@ MassProperties cylinderMassProperties(double mass, double radius, double length)
 }
 
 MassProperties coneMassProperties(double mass, double radius, double length) {
+  const FloatingPointEnvironment environment;
   requirePositive(mass, "mass", "kg");
   requirePositive(radius, "radius", "m");
   requirePositive(length, "length", "m");
@@ -137,6 +146,7 @@ MassProperties coneMassProperties(double mass, double radius, double length) {
 }
 
 MassProperties meshMassProperties(const TriangleMesh& mesh, double mass) {
+  const FloatingPointEnvironment environment;
   requirePositive(mass, "mass", "kg");
   const VolumeMoments moments = volumeMoments(mesh);
   return {mass, moments.centroid,
@@ -144,6 +154,7 @@ MassProperties meshMassProperties(const TriangleMesh& mesh, double mass) {
 }
 
 MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh, double density) {
+  const FloatingPointEnvironment environment;
   requirePositive(density, "density", "kg/m^3");
   const VolumeMoments moments = volumeMoments(mesh);
   return {density * moments.volume, moments.centroid,
@@ -151,6 +162,7 @@ MassProperties meshMassPropertiesOfDensity(const TriangleMesh& mesh, double dens
 }
 
 MassProperties placed(const MassProperties& part, const Matrix3& R_GH, const Vector3& p_GH) {
+  const FloatingPointEnvironment environment;
   Matrix3 inertia = product(product(R_GH, part.I_BBo_B), R_GH.transpose());
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < i; ++j)
@@ -160,6 +172,7 @@ MassProperties placed(const MassProperties& part, const Matrix3& R_GH, const Vec
 }
 
 MassProperties composed(const std::vector<MassProperties>& parts) {
+  const FloatingPointEnvironment environment;
   if (parts.empty()) throw std::invalid_argument("parts: there must be at least one");
   // Positions from the first part, so that nothing cancels far from the origin.
   const Vector3 origin = parts.front().p_HB;
@@ -178,6 +191,7 @@ MassProperties composed(const std::vector<MassProperties>& parts) {
 }
 
 void checkInertia(const Matrix3& I_BBo_B, const std::string& name) {
+  const FloatingPointEnvironment environment;
   requireFinite(I_BBo_B, name);
   requireSymmetric(I_BBo_B, name);
   const Vector3 moments = principalInertia(I_BBo_B).moments;
@@ -196,6 +210,7 @@ void checkInertia(const Matrix3& I_BBo_B, const std::string& name) {
 }
 
 PrincipalInertia principalInertia(const Matrix3& I_BBo_B) {
+  const FloatingPointEnvironment environment;
   const Eigen::SelfAdjointEigenSolver<Matrix3> solver(I_BBo_B);
   demand(solver.info() == Eigen::Success, "a tensor without principal axes");
   PrincipalInertia result{solver.eigenvalues(), solver.eigenvectors()};

@@ -1,10 +1,12 @@
 #include "hovercraft_sim/body/rigid_body.h"
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 
 Mobility Mobility::spatial(double mass, const Matrix3& I_BBo_B) {
+  const FloatingPointEnvironment environment;
   demand(mass > 0.0 && determinant(I_BBo_B) > 0.0, "mass and inertia must be checked before");
   Mobility mobility;
   mobility.mass_ = mass;
@@ -15,6 +17,7 @@ Mobility Mobility::spatial(double mass, const Matrix3& I_BBo_B) {
 }
 
 Mobility Mobility::planar(double mass, const Matrix3& I_BBo_B) {
+  const FloatingPointEnvironment environment;
   demand(mass > 0.0 && I_BBo_B(2, 2) > 0.0, "mass and inertia must be checked before");
   Mobility mobility;
   mobility.mass_ = mass;

@@ -5,6 +5,7 @@
 #include "hovercraft_sim/collision/feature_walk.h"
 #include "hovercraft_sim/collision/penetration.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -46,6 +47,7 @@ ClosestFeatures overlapping(const LeastOverlap& least, Proximity status, int ste
 
 ClosestFeatures closestFeatures(const ConvexPolyhedron& A, const Pose& X_WA,
                                 const ConvexPolyhedron& B, const Pose& X_WB, FeaturePair& last) {
+  const FloatingPointEnvironment environment;
   FeatureWalk walk(A, X_WA, B, X_WB);
   if (last.known) {
     walk.start(last);

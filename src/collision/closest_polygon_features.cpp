@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -271,6 +272,7 @@ void PolygonWalk::closestOfAllPairs() {
 ClosestPolygonFeatures closestFeatures(const ConvexPolygon& A, const PlanarPose& X_WA,
                                        const ConvexPolygon& B, const PlanarPose& X_WB,
                                        FeaturePair& last) {
+  const FloatingPointEnvironment environment;
   PolygonWalk walk(A, X_WA, B, X_WB);
   if (!walk.run(last.known ? last : FeaturePair{})) {
     walk.leastOverlap();

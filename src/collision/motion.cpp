@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -73,6 +74,7 @@ Pose StepMotion::at(double t) const {
 
 StepMotion motionBetween(const Vector3& p_start, const Quaternion& q_start, const Vector3& p_end,
                          const Quaternion& q_end, double duration) {
+  const FloatingPointEnvironment environment;
   demand(duration > 0.0, "a motion needs a positive duration");
   StepMotion motion;
   motion.p_WB = p_start;
@@ -89,6 +91,7 @@ StepMotion motionBetween(const Vector3& p_start, const Quaternion& q_start, cons
 }
 
 AxisAlignedBox sweptBox(const ConvexPolyhedron& body, const StepMotion& motion, double duration) {
+  const FloatingPointEnvironment environment;
   const AxisAlignedBox start = boxAt(body, motion.at(0.0));
   const AxisAlignedBox end = boxAt(body, motion.at(duration));
   // |x''| <= |a| + |w|² r; a chord of length T in t is left by at most |x''| T²/8. On long turns

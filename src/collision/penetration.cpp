@@ -3,16 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
 
 using Data = PolyhedronData;
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Searches the faces of the Minkowski difference. Axes of W, origin in the origin of A.
 class OverlapSearch {
@@ -165,6 +163,7 @@ LeastOverlap OverlapSearch::answer(const Vector3& origin) const {
 
 LeastOverlap leastOverlap(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
                           const Pose& X_WB) {
+  const FloatingPointEnvironment environment;
   OverlapSearch search(A, X_WA, B, X_WB);
   search.faces(0);
   search.faces(1);

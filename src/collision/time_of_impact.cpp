@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/collision/relative_motion.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -129,6 +130,7 @@ void check(const ImpactSearch& search) {
 TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
                           const ConvexPolyhedron& B, const StepMotion& motion_B,
                           const ImpactSearch& search) {
+  const FloatingPointEnvironment environment;
   check(search);
   Scene scene(A, motion_A, B, motion_B);
   const RelativeMotion motion(A, motion_A, B, motion_B, search.duration);
@@ -146,6 +148,7 @@ TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
 
 bool isClear(const ConvexPolyhedron& A, const StepMotion& motion_A, const ConvexPolyhedron& B,
              const StepMotion& motion_B, const ClosestFeatures& start, const ImpactSearch& search) {
+  const FloatingPointEnvironment environment;
   check(search);
   if (!apart(start, search.tolerance)) return false;
   const RelativeMotion motion(A, motion_A, B, motion_B, search.duration);
@@ -154,6 +157,7 @@ bool isClear(const ConvexPolyhedron& A, const StepMotion& motion_A, const Convex
 
 VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion, const Plane& plane,
                                const ImpactSearch& search) {
+  const FloatingPointEnvironment environment;
   check(search);
   const double spin = norm(motion.w_WB);
   const double curvature = norm(motion.a_WB) + spin * spin * norm(p_B);

@@ -5,13 +5,10 @@
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
 namespace {
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// Bound on a component of the normal (-) below which its axis serves to build a tangent: just
 /// above 1/√3, so that one always does, and no common direction is near it.

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
 namespace {
@@ -42,10 +44,6 @@ struct Corners {
     --count;
   }
 };
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// The face of a body that looks most along a direction of W: uphill on the faces of the support
 /// vertex would do for a smooth answer; the faces around the supporting feature hold it.
@@ -244,6 +242,7 @@ void addClosest(const ClosestFeatures& closest, ContactManifold& manifold) {
 ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
                                 const ConvexPolyhedron& B, const Pose& X_WB,
                                 const ClosestFeatures& closest, double band) {
+  const FloatingPointEnvironment environment;
   ContactManifold manifold;
   manifold.nhat_AB_W = closest.nhat_AB_W;
   const double aligned = 1.0 - 0.5 * kFaceAlignment * kFaceAlignment;

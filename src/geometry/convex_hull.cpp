@@ -11,14 +11,12 @@
 
 #include "hovercraft_sim/geometry/polyhedron_builder.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// One run of qhull: its state, and what it has to say, freed at the end.
 class Qhull {
@@ -323,6 +321,7 @@ Extent extentOf(const PolyhedronData& body) {
 }  // namespace
 
 ConvexPolyhedron convexHull(const std::vector<Vector3>& points, const std::string& name) {
+  const FloatingPointEnvironment environment;
   if (points.size() < 4) {
     throw std::invalid_argument(
         fmt::format("{}: {} points have no convex hull, it takes at least 4", name, points.size()));
@@ -345,6 +344,7 @@ ConvexPolyhedron convexHull(const std::vector<Vector3>& points, const std::strin
 
 ConvexPolyhedron polyhedronFromMesh(const TriangleMesh& mesh, NonConvexMesh choice,
                                     const std::string& name) {
+  const FloatingPointEnvironment environment;
   ConvexPolyhedron hull = convexHull(mesh.vertices, name);
   if (choice == NonConvexMesh::kTakeHull) return hull;
   const Extent extent = extentOf(hull.data());

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
+
 namespace hovercraft {
 namespace {
 
@@ -56,6 +58,7 @@ VoronoiPlane plane(const Vector2& normal, const Vector2& point, Feature behind) 
 }  // namespace
 
 ConvexPolygon::ConvexPolygon(std::vector<Vector2> vertices) : vertices_(std::move(vertices)) {
+  const FloatingPointEnvironment environment;
   if (vertices_.size() < 3) {
     refuse(fmt::format("has {} vertices, it takes at least 3", vertices_.size()));
   }
@@ -115,6 +118,7 @@ std::vector<VoronoiPlane> ConvexPolygon::voronoiPlanes(Feature feature) const {
 }
 
 ConvexPolygon convexHull(std::vector<Vector2> points) {
+  const FloatingPointEnvironment environment;
   checkFinite(points, "point");
   const auto less = [](const Vector2& a, const Vector2& b) {
     return a.x != b.x ? a.x < b.x : a.y < b.y;

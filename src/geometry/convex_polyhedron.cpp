@@ -2,11 +2,13 @@
 
 #include "hovercraft_sim/geometry/polyhedron_builder.h"
 #include "hovercraft_sim/geometry/support_map.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 
-ConvexPolyhedron::ConvexPolyhedron(const std::vector<Vector3>& vertices, const Rings& rings)
-    : data_(buildPolyhedron(vertices, rings)) {
+ConvexPolyhedron::ConvexPolyhedron(const std::vector<Vector3>& vertices, const Rings& rings) {
+  const FloatingPointEnvironment environment;
+  data_ = buildPolyhedron(vertices, rings);
   checkConvex(data_);
   fillSupportMap(data_);
 }

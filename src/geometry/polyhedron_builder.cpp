@@ -8,8 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hovercraft_sim/geometry/coordinates.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/double_double.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -19,24 +21,12 @@ using Edge = PolyhedronData::Edge;
 using Face = PolyhedronData::Face;
 using Inner = PolyhedronData::Inner;
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
-[[noreturn]] void refuse(const std::string& reason) {
-  throw std::invalid_argument("convex polyhedron: " + reason);
-}
-
-std::string coordinates(const Vector3& p) {
-  return fmt::format("({}, {}, {})", p.x(), p.y(), p.z());
-}
-
 void checkVertices(const std::vector<Vector3>& vertices) {
   if (vertices.size() < 4) {
-    refuse(fmt::format("has {} vertices, a solid has at least 4", vertices.size()));
+    refusePolyhedron(fmt::format("has {} vertices, a solid has at least 4", vertices.size()));
   }
   for (std::size_t i = 0; i < vertices.size(); ++i) {
-    if (!vertices[i].allFinite()) refuse(fmt::format("vertex {} is not finite", i));
+    if (!vertices[i].allFinite()) refusePolyhedron(fmt::format("vertex {} is not finite", i));
   }
   std::vector<std::size_t> order(vertices.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -50,8 +40,9 @@ void checkVertices(const std::vector<Vector3>& vertices) {
   std::sort(order.begin(), order.end(), less);
   for (std::size_t i = 1; i < order.size(); ++i) {
     if (vertices[order[i - 1]] == vertices[order[i]]) {
-      refuse(fmt::format("vertices {} and {} are both at {}", std::min(order[i - 1], order[i]),
-                         std::max(order[i - 1], order[i]), coordinates(vertices[order[i]])));
+      refusePolyhedron(
+          fmt::format("vertices {} and {} are both at {}", std::min(order[i - 1], order[i]),
+                      std::max(order[i - 1], order[i]), coordinates(vertices[order[i]])));
     }
   }
 }
@@ -60,17 +51,17 @@ void checkRings(const std::vector<Vector3>& vertices, const Rings& rings) {
   const auto count = static_cast<std::int32_t>(vertices.size());
   std::vector<char> used(vertices.size(), 0);
   for (std::size_t f = 0; f < rings.size(); ++f) {
-    if (rings[f].size() < 3) refuse(fmt::format("face {} has fewer than 3 vertices", f));
+    if (rings[f].size() < 3) refusePolyhedron(fmt::format("face {} has fewer than 3 vertices", f));
     for (const std::int32_t v : rings[f]) {
       if (v < 0 || v >= count) {
-        refuse(fmt::format("face {} names vertex {} of {}", f, v, count));
+        refusePolyhedron(fmt::format("face {} names vertex {} of {}", f, v, count));
       }
       used[at(v)] = 1;
     }
   }
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused != used.end()) {
-    refuse(fmt::format("vertex {} belongs to no face", unused - used.begin()));
+    refusePolyhedron(fmt::format("vertex {} belongs to no face", unused - used.begin()));
   }
 }
 
@@ -201,7 +192,7 @@ Vector3 faceNormal(const std::vector<Vector3>& vertices, const std::vector<std::
   if (size > kSliver * area.products) return area.vector / size;
   const Vector3 precise = preciseArea(vertices, ring);
   const double precise_size = norm(precise);
-  if (!(precise_size > 0.0)) refuse(fmt::format("face {} has no area", index));
+  if (!(precise_size > 0.0)) refusePolyhedron(fmt::format("face {} has no area", index));
   return precise / precise_size;
 }
 
@@ -252,7 +243,7 @@ void addEdges(PolyhedronData& data, const Rings& rings, const std::vector<std::i
     const bool thrice = paired && i + 2 < halves.size() && halves[i + 2].low == a.low &&
                         halves[i + 2].high == a.high;
     if (!paired || thrice) {
-      refuse(
+      refusePolyhedron(
           fmt::format("the edge between vertices {} and {} does not belong to exactly two faces "
                       "that run through it in opposite directions",
                       a.low, a.high));
@@ -306,7 +297,8 @@ void addFans(PolyhedronData& data, const std::vector<std::int32_t>& ranks) {
     data.vertices[at(v)].fan_begin = begin;
     data.vertices[at(v)].fan_count = static_cast<std::int32_t>(data.fan.size()) - begin;
   }
-  if (data.fan.size() != 2 * data.edges.size()) refuse("the surface touches itself in a vertex");
+  if (data.fan.size() != 2 * data.edges.size())
+    refusePolyhedron("the surface touches itself in a vertex");
 }
 
 /// A point inside each face of many edges, and a direction inside the cone of each vertex of many:

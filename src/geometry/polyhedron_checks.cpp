@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "hovercraft_sim/geometry/coordinates.h"
 #include "hovercraft_sim/geometry/polyhedron_builder.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
+
+void refusePolyhedron(const std::string& reason) {
+  throw std::invalid_argument("convex polyhedron: " + reason);
+}
+
 namespace {
 
 using Edge = PolyhedronData::Edge;
 using Face = PolyhedronData::Face;
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// The vertex with which the ring goes on after position `i` has ended.
 std::int32_t vertexAfter(const PolyhedronData& data, const Face& face, std::int32_t i) {
@@ -28,14 +31,9 @@ double height(const PolyhedronData& data, std::int32_t face, std::int32_t vertex
          data.faces[at(face)].offset;
 }
 
-[[noreturn]] void refuse(const std::string& reason) {
-  throw std::invalid_argument("convex polyhedron: " + reason);
-}
-
 /// A vertex with its position.
 std::string describe(const PolyhedronData& data, std::int32_t vertex) {
-  const Vector3& p = data.vertices[at(vertex)].p;
-  return fmt::format("vertex {} at ({}, {}, {})", vertex, p.x(), p.y(), p.z());
+  return fmt::format("vertex {} at {}", vertex, coordinates(data.vertices[at(vertex)].p));
 }
 
 /// Says so if all vertices lie in the plane of one face.
@@ -47,7 +45,7 @@ void checkThickness(const PolyhedronData& data, double tolerance) {
                                                     static_cast<std::int32_t>(v))));
     }
     if (farthest > tolerance) continue;
-    refuse(fmt::format(
+    refusePolyhedron(fmt::format(
         "the body is flat: no vertex lies more than {} m from the plane of face {}, more than {} m "
         "is a thickness",
         farthest, f, tolerance));
@@ -70,8 +68,9 @@ void checkThickness(const PolyhedronData& data, double tolerance) {
       }
     }
   }
-  refuse(fmt::format("{}: {} lies {} m outside the plane of face {}, at most {} m is rounding",
-                     what, describe(data, worst_vertex), worst, worst_face, tolerance));
+  refusePolyhedron(
+      fmt::format("{}: {} lies {} m outside the plane of face {}, at most {} m is rounding", what,
+                  describe(data, worst_vertex), worst, worst_face, tolerance));
 }
 
 /// Diagonal of the bounding box.
@@ -109,7 +108,7 @@ double slack(const PolyhedronData& data) {
     }
   }
   const Edge& worst_side = data.edges[at(data.ring_edge[at(worst_position)])];
-  refuse(fmt::format(
+  refusePolyhedron(fmt::format(
       "face {} is not a convex polygon: {} lies {} m beyond its side between vertices {} and {}, "
       "at most {} m is rounding",
       face, describe(data, worst_vertex), worst, worst_side.vertex[0], worst_side.vertex[1],
@@ -141,8 +140,9 @@ void checkPlane(const PolyhedronData& data, std::int32_t f, double tolerance) {
     worst_vertex = vertex;
   }
   if (worst <= tolerance) return;
-  refuse(fmt::format("face {} is not plane: {} lies {} m from its plane, at most {} m is rounding",
-                     f, describe(data, worst_vertex), worst, tolerance));
+  refusePolyhedron(
+      fmt::format("face {} is not plane: {} lies {} m from its plane, at most {} m is rounding", f,
+                  describe(data, worst_vertex), worst, tolerance));
 }
 
 /// How many faces a ray from the centre meets: one, unless the surface winds around twice. Goes
@@ -187,7 +187,7 @@ void checkConvex(const PolyhedronData& data) {
   const auto faces = static_cast<long>(data.faces.size());
   if (vertices - edges + faces != 2 || windings(data) != 1) {
     checkThickness(data, tolerance);
-    refuse("the surface is not one closed shell");
+    refusePolyhedron("the surface is not one closed shell");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -19,6 +20,7 @@ void checkLength(double value, const char* what) {
 }  // namespace
 
 ConvexPolyhedron boxPolyhedron(const Vector3& size) {
+  const FloatingPointEnvironment environment;
   checkLength(size.x(), "box length");
   checkLength(size.y(), "box width");
   checkLength(size.z(), "box height");
@@ -29,6 +31,7 @@ ConvexPolyhedron boxPolyhedron(const Vector3& size) {
 }
 
 ConvexPolyhedron prismPolyhedron(const ConvexPolygon& base, double height) {
+  const FloatingPointEnvironment environment;
   checkLength(height, "prism height");
   const int n = base.vertexCount();
   std::vector<Vector3> vertices;
@@ -46,6 +49,7 @@ ConvexPolyhedron prismPolyhedron(const ConvexPolygon& base, double height) {
 }
 
 ConvexPolyhedron cylinderPolyhedron(double radius, double height, int sides) {
+  const FloatingPointEnvironment environment;
   checkLength(radius, "cylinder radius");
   if (sides < 3) {
     throw std::invalid_argument(fmt::format("cylinder sides = {}: at least 3", sides));

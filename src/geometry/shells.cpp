@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <numeric>
 
+#include "hovercraft_sim/math/constants.h"
+
 namespace hovercraft {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Numbers that fall into groups (union-find).
 class Groups {

@@ -11,9 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hovercraft_sim/geometry/coordinates.h"
 #include "hovercraft_sim/geometry/shells.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -21,10 +23,6 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& name, const std::string& reason) {
   throw std::invalid_argument(name + ": " + reason);
-}
-
-std::string coordinates(const Vector3& point) {
-  return fmt::format("({:.12g}, {:.12g}, {:.12g})", point.x(), point.y(), point.z());
 }
 
 /// x -> linear x + shift
@@ -93,19 +91,19 @@ void addNode(const aiScene& scene, const aiNode& node, const Affine& parent,
 }
 
 /// One side of a triangle, as an undirected edge with the direction in which the triangle runs.
-struct Side {
+struct TriangleSide {
   int low;
   int high;
   bool forward;  // from low to high
 
-  friend bool operator<(const Side& a, const Side& b) {
+  friend bool operator<(const TriangleSide& a, const TriangleSide& b) {
     return std::array<int, 3>{a.low, a.high, a.forward ? 1 : 0} <
            std::array<int, 3>{b.low, b.high, b.forward ? 1 : 0};
   }
 };
 
-std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
+std::vector<TriangleSide> sortedTriangleSides(const TriangleMesh& mesh) {
+  std::vector<TriangleSide> sides;
   sides.reserve(3 * mesh.triangles.size());
   for (const auto& triangle : mesh.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -123,10 +121,10 @@ std::vector<Side> sortedSides(const TriangleMesh& mesh) {
 /// Edges that break one rule: how many, the first of them, and to how many triangles that belongs.
 struct BadEdges {
   int count = 0;
-  Side first{};
+  TriangleSide first{};
   int triangles_at_first = 0;
 
-  void add(const Side& edge, int triangles) {
+  void add(const TriangleSide& edge, int triangles) {
     if (count == 0) {
       first = edge;
       triangles_at_first = triangles;
@@ -141,7 +139,7 @@ struct EdgeReport {
   BadEdges one_way;  // of two that run through it in the same direction
 
   /// An edge as it comes from the mesh: `forward` of its `triangles` run from low to high.
-  void add(const Side& edge, int triangles, int forward) {
+  void add(const TriangleSide& edge, int triangles, int forward) {
     if (triangles == 1) {
       open.add(edge, triangles);
     } else if (triangles > 2) {
@@ -154,7 +152,7 @@ struct EdgeReport {
 
 EdgeReport reportOnEdges(const TriangleMesh& mesh) {
   EdgeReport report;
-  const std::vector<Side> sides = sortedSides(mesh);
+  const std::vector<TriangleSide> sides = sortedTriangleSides(mesh);
   for (std::size_t begin = 0; begin < sides.size();) {
     std::size_t end = begin;
     int forward = 0;
@@ -286,6 +284,7 @@ void checkShells(const TriangleMesh& mesh, const std::string& name) {
 }  // namespace
 
 void checkClosed(const TriangleMesh& mesh, const std::string& name) {
+  const FloatingPointEnvironment environment;
   if (mesh.triangles.empty()) refuse(name, "no triangles");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     if (mesh.vertices[i].allFinite()) continue;
@@ -297,6 +296,7 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
 }
 
 TriangleMesh loadSurface(const std::string& path) {
+  const FloatingPointEnvironment environment;
   const std::string name = "mesh file '" + path + "'";
   if (!std::ifstream(path)) refuse(name, "does not exist or cannot be read");
   Assimp::Importer importer;
@@ -313,6 +313,7 @@ TriangleMesh loadSurface(const std::string& path) {
 }
 
 TriangleMesh loadTriangleMesh(const std::string& path) {
+  const FloatingPointEnvironment environment;
   TriangleMesh mesh = loadSurface(path);
   checkClosed(mesh, "mesh file '" + path + "'");
   return mesh;

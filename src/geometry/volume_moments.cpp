@@ -1,6 +1,7 @@
 #include "hovercraft_sim/geometry/volume_moments.h"
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -50,6 +51,7 @@ Moments momentsAbout(const Vector3& point, const TriangleMesh& mesh) {
 }  // namespace
 
 VolumeMoments volumeMoments(const TriangleMesh& mesh) {
+  const FloatingPointEnvironment environment;
   const Vector3 middle = middleOfBoundingBox(mesh);
   const Moments rough = momentsAbout(middle, mesh);
   demand(rough.zeroth > 0.0, "moments of a mesh that was not checked");
@@ -61,6 +63,7 @@ VolumeMoments volumeMoments(const TriangleMesh& mesh) {
 }
 
 double signedVolume(const TriangleMesh& mesh) {
+  const FloatingPointEnvironment environment;
   return momentsAbout(middleOfBoundingBox(mesh), mesh).zeroth;
 }
 

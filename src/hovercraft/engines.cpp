@@ -5,6 +5,7 @@
 
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -12,6 +13,7 @@ namespace hovercraft {
 EngineDynamics::EngineDynamics(const std::array<EngineParameters, kEngineCount>& parameters,
                                std::int64_t step_ns)
     : parameters_(parameters), step_ns_(step_ns) {
+  const FloatingPointEnvironment environment;
   demand(step_ns > 0, "step size must be checked before");
   const double h = toSeconds(step_ns);
   for (int i = 0; i < kEngineCount; ++i) {
@@ -46,6 +48,7 @@ ThrustCourse EngineDynamics::course(const EngineStates& states, Tick tick) const
 
 EngineGeometry::EngineGeometry(const std::array<EngineParameters, kEngineCount>& parameters,
                                const Vector3& p_HB) {
+  const FloatingPointEnvironment environment;
   for (int i = 0; i < kEngineCount; ++i) {
     const EngineParameters& engine = parameters[static_cast<std::size_t>(i)];
     const Vector3 p_BE = engine.p_HE - p_HB;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -25,6 +26,7 @@ Quaternion fromLargestComponent(const Matrix3& R, int i) {
 }  // namespace
 
 Quaternion quaternionFromMatrix(const Matrix3& R_WB) {
+  const FloatingPointEnvironment environment;
   const double trace = (R_WB(0, 0) + R_WB(1, 1)) + R_WB(2, 2);
   if (trace > 0.0) {
     const double root = std::sqrt(1.0 + trace);
@@ -39,10 +41,12 @@ Quaternion quaternionFromMatrix(const Matrix3& R_WB) {
 }
 
 Quaternion quaternionFromAxisAngle(const Vector3& axis, double theta) {
+  const FloatingPointEnvironment environment;
   return {exactCos(0.5 * theta), exactSin(0.5 * theta) * axis};
 }
 
 Quaternion quaternionFromRpy(const Vector3& rpy) {
+  const FloatingPointEnvironment environment;
   const Quaternion roll = quaternionFromAxisAngle(Vector3::UnitX(), rpy.x());
   const Quaternion pitch = quaternionFromAxisAngle(Vector3::UnitY(), rpy.y());
   const Quaternion yaw = quaternionFromAxisAngle(Vector3::UnitZ(), rpy.z());
@@ -50,6 +54,7 @@ Quaternion quaternionFromRpy(const Vector3& rpy) {
 }
 
 Vector3 rpyFromQuaternion(const Quaternion& q_WB) {
+  const FloatingPointEnvironment environment;
   const Matrix3 R = rotationMatrix(q_WB);
   return {exactAtan2(R(2, 1), R(2, 2)), exactAsin(std::clamp(-R(2, 0), -1.0, 1.0)),
           exactAtan2(R(1, 0), R(0, 0))};

@@ -5,11 +5,13 @@
 
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 
 Matrix3 rotationX(double theta) {
+  const FloatingPointEnvironment environment;
   const double c = exactCos(theta);
   const double s = exactSin(theta);
   Matrix3 R;
@@ -20,6 +22,7 @@ Matrix3 rotationX(double theta) {
 }
 
 Matrix3 rotationY(double theta) {
+  const FloatingPointEnvironment environment;
   const double c = exactCos(theta);
   const double s = exactSin(theta);
   Matrix3 R;
@@ -30,6 +33,7 @@ Matrix3 rotationY(double theta) {
 }
 
 Matrix3 rotationZ(double theta) {
+  const FloatingPointEnvironment environment;
   const double c = exactCos(theta);
   const double s = exactSin(theta);
   Matrix3 R;
@@ -40,6 +44,7 @@ Matrix3 rotationZ(double theta) {
 }
 
 Matrix3 rotationFromRpy(const Vector3& rpy) {
+  const FloatingPointEnvironment environment;
   return product(rotationZ(rpy.z()), product(rotationY(rpy.y()), rotationX(rpy.x())));
 }
 

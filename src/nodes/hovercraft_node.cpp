@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
     ros::param::get(private_handle.getNamespace(), parameters);
     hovercraft_ros::HovercraftNode node(
         handle, private_handle,
-        hovercraft_ros::parseNodeConfig(hovercraft_ros::toYaml(parameters, name), name));
+        hovercraft_ros::parseNodeConfig(hovercraft_ros::parameterTree(parameters, name), name));
     const hovercraft_ros::NodeServices services(private_handle, node);
     // The server reads the parameter again, and takes a number that came as text for none.
     private_handle.setParam("real_time_factor", node.config().real_time_factor);

@@ -1,23 +1,27 @@
-#include <cmath>
-#include <cstdint>
+#include <csignal>
 #include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <yaml-cpp/yaml.h>
+#include <unistd.h>
 
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/param.h>
+#include <ros/this_node.h>
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/command_player.h"
+#include "hovercraft_sim/ros/parameters.h"
+#include "hovercraft_sim/ros/play_config.h"
 #include "hovercraft_sim/sim/commands_csv.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 namespace {
 
 constexpr double kScenarioDeadline = 30.0;  // s of wall time to wait for the simulation to appear
+constexpr double kStopDeadline = 15.0;      // s of wall time: roslaunch waits as long for a node
 constexpr double kPoll = 0.1;               // s, how often a shutdown is looked for
 
 hovercraft::Scenario receiveScenario(const ros::NodeHandle& handle) {
@@ -35,7 +39,15 @@ hovercraft::Scenario receiveScenario(const ros::NodeHandle& handle) {
         "no scenario on " + node.resolveName("scenario") +
         ": is the simulation running, and the topic remapped to its ~scenario?");
   }
-  return hovercraft::parseScenario(YAML::Load(text), {node.resolveName("scenario"), "", {}});
+  return hovercraft::parseScenario(text, {node.resolveName("scenario"), "", {}});
+}
+
+/// Interrupts the roslaunch that started this node, as Ctrl-C does, and waits to be stopped with
+/// everything else that it launched. (It would report a required node that ends as dead.)
+void endLaunch() {
+  kill(getppid(), SIGINT);
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(kStopDeadline);
+  while (ros::ok() && ros::WallTime::now() < deadline) ros::WallDuration(kPoll).sleep();
 }
 
 }  // namespace
@@ -45,28 +57,19 @@ int main(int argc, char** argv) {
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;
   try {
-    const ros::NodeHandle own("~");
-    std::string path;
-    if (!own.getParam("file", path)) {
-      throw std::invalid_argument(own.resolveName("file") +
-                                  ": the parameter is missing: a commands CSV");
-    }
-    const double settle = own.param("settle", 1.0);
-    if (!(settle >= 0.0 && std::isfinite(settle))) {
-      throw std::invalid_argument(own.resolveName("settle") + ": must be 0 s or more");
-    }
-    const int subscribers = own.param("wanted_subscribers", 1);
-    if (subscribers < 1) {
-      throw std::invalid_argument(own.resolveName("wanted_subscribers") + ": must be 1 or more");
-    }
+    const std::string& name = ros::this_node::getName();
+    XmlRpc::XmlRpcValue parameters;
+    ros::param::get("~", parameters);
+    const hovercraft_ros::PlayConfig config =
+        hovercraft_ros::parsePlayConfig(hovercraft_ros::parameterTree(parameters, name), name);
     const hovercraft::Scenario scenario = receiveScenario(handle);
     hovercraft_ros::CommandPlayer player(
-        handle, scenario, std::make_unique<hovercraft::CsvCommandSource>(path, scenario),
-        std::llround(settle * static_cast<double>(hovercraft::kNanosecondsPerSecond)),
-        static_cast<std::uint32_t>(subscribers));
+        handle, scenario, std::make_unique<hovercraft::CsvCommandSource>(config.file, scenario),
+        config.settle_ns, config.wanted_subscribers);
     while (ros::ok() && !player.isDone()) {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPoll));
     }
+    if (config.ends_launch && player.isDone()) endLaunch();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

@@ -40,7 +40,7 @@ BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenar
     : file_(path),
       bag_(new rosbag::Bag),
       step_ns_(scenario.step_ns),
-      bodies_(bodyMessages(scenario, kDefaultWorldFrame)) {
+      bodies_(bodyMessages(scenario, TfFrames())) {
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     vehicles_.emplace_back(scenario, vehicle);
   }

@@ -7,11 +7,11 @@
 namespace hovercraft_ros {
 
 BodyMessages::BodyMessages(const hovercraft::Scenario& scenario, std::size_t body,
-                           const std::string& world_frame)
+                           const TfFrames& frames)
     : description_(scenario.world->bodies.at(body)), body_(body) {
-  pose_.header.frame_id = world_frame;
-  transform_.header.frame_id = world_frame;
-  transform_.child_frame_id = description_.name + "/base_link";
+  pose_.header.frame_id = frames.world;
+  transform_.header.frame_id = frames.world;
+  transform_.child_frame_id = frames.of(description_.name);
 }
 
 void BodyMessages::fill(const hovercraft::Simulation& simulation, const ros::Time& stamp) {
@@ -26,11 +26,11 @@ void BodyMessages::fill(const hovercraft::Simulation& simulation, const ros::Tim
 }
 
 std::vector<BodyMessages> bodyMessages(const hovercraft::Scenario& scenario,
-                                       const std::string& world_frame) {
+                                       const TfFrames& frames) {
   std::vector<BodyMessages> messages;
   if (!scenario.world) return messages;
   for (std::size_t body = 0; body < scenario.world->bodies.size(); ++body) {
-    messages.emplace_back(scenario, body, world_frame);
+    messages.emplace_back(scenario, body, frames);
   }
   return messages;
 }

@@ -12,7 +12,7 @@ namespace hovercraft_ros {
 namespace {
 
 constexpr std::int64_t kRepeatNs = 50000000;  // a tenth of the default time-out
-constexpr std::uint32_t kQueue = 100;
+constexpr std::uint32_t kPlayerQueue = 100;
 
 }  // namespace
 
@@ -42,10 +42,10 @@ CommandPlayer::CommandPlayer(const ros::NodeHandle& handle, const hovercraft::Sc
       time_(scenario.step_ns) {
   for (const hovercraft::VehicleScenario& craft : scenario.vehicles) {
     ros::NodeHandle own(handle, craft.name);
-    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kQueue));
+    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kPlayerQueue));
   }
   ros::NodeHandle first(handle, scenario.vehicles.front().name);
-  state_subscriber_ = first.subscribe(kStateTopic, kQueue, &CommandPlayer::onState, this,
+  state_subscriber_ = first.subscribe(kStateTopic, kPlayerQueue, &CommandPlayer::onState, this,
                                       ros::TransportHints().tcpNoDelay());
 }
 

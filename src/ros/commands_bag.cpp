@@ -34,6 +34,11 @@ std::set<std::string> topicsIn(rosbag::View& view) {
   return topics;
 }
 
+}  // namespace
+
+/// What BagCommandSource::Streams is made of.
+namespace streams_of_bag {
+
 /// What is needed to make a message of one vehicle a command.
 struct VehicleTopics {
   std::size_t vehicle;
@@ -126,15 +131,18 @@ class VehicleStream {
   std::optional<std::uint32_t> first_episode_;
 };
 
-}  // namespace
+}  // namespace streams_of_bag
 
 class BagCommandSource::Streams {
+  using VehicleStream = streams_of_bag::VehicleStream;
+  using VehicleTopics = streams_of_bag::VehicleTopics;
+
  public:
   Streams(const std::string& path, const hovercraft::Scenario& scenario) {
     openForReading(bag_, path);
     rosbag::View everything(bag_);
     const std::set<std::string> present = topicsIn(everything);
-    const std::vector<VehicleTopics> all = topicsOf(scenario);
+    const std::vector<VehicleTopics> all = streams_of_bag::topicsOf(scenario);
     const bool has_applied = std::any_of(all.begin(), all.end(), [&](const VehicleTopics& topics) {
       return present.count(topics.applied) > 0;
     });

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
+
 namespace hovercraft_ros {
 namespace {
 
@@ -52,6 +54,7 @@ Quaternion fromMessage(const geometry_msgs::Quaternion& q) {
 }
 
 HullMotion hullMotion(const hovercraft::Motion& motion, const Vector3& p_HB) {
+  const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::Matrix3 R_WH = hovercraft::rotationMatrix(motion.q_WB);
   const Vector3 p_WH = motion.p_WB - hovercraft::times(R_WH, p_HB);
   const Vector3 v_WH = hovercraft::velocityOfPoint(motion.twist, p_WH, motion.p_WB);
@@ -60,6 +63,7 @@ HullMotion hullMotion(const hovercraft::Motion& motion, const Vector3& p_HB) {
 }
 
 Quaternion turnFromX(const Vector3& direction) {
+  const hovercraft::FloatingPointEnvironment environment;
   const double length = hovercraft::norm(direction);
   const double x = direction.x();
   const double across = direction.y() * direction.y() + direction.z() * direction.z();

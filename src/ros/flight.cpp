@@ -7,7 +7,6 @@
 #include <std_srvs/Trigger.h>
 #include <stdexcept>
 #include <utility>
-#include <yaml-cpp/yaml.h>
 
 #include <hovercraft_sim/Reset.h>
 #include <hovercraft_sim/ThrustCommand.h>
@@ -38,7 +37,9 @@ namespace {
 
 constexpr std::chrono::seconds kDeadline(30);  // of wall time: much more than a start takes
 constexpr double kPoll = 0.01;                 // s, how often a deadline is looked at
-constexpr std::uint32_t kQueue = 10000;  // states; a simulation at full speed must not lose one
+constexpr std::uint32_t kFlightQueue =
+    10000;                             // states; a simulation at full speed must not lose one
+constexpr std::size_t kBatch = 10000;  // commands handed over in one call
 
 /// Handles callbacks until the condition holds. @param patience wall time without a callback.
 void waitUntil(const std::string& what, const std::function<bool()>& condition) {
@@ -57,6 +58,52 @@ TrajectorySample sampleOf(const hovercraft_sim::State& state, std::int64_t step_
           fromMessage(state.pose.orientation), fromMessage(state.velocity),
           fromMessage(state.angular_velocity)};
 }
+
+/// The thrusts that a craft is commanded, as a request of its schedule: each change at its tick,
+/// and in between again, often enough that no engine times out.
+class HeldThrusts {
+ public:
+  HeldThrusts(const hovercraft::VehicleScenario& craft, std::int64_t step_ns, std::uint32_t episode)
+      : episode_(episode) {
+    request_.vehicle = craft.name;
+    for (const hovercraft::EngineParameters& engine : craft.engines) {
+      if (engine.timeout_ns == 0) continue;
+      const Tick half = std::max<Tick>(1, engine.timeout_ns / step_ns / 2);
+      repeat_ = repeat_ ? std::min(*repeat_, half) : half;
+    }
+  }
+
+  /// Repeats what is held, up to a tick.
+  void holdUntil(Tick tick) {
+    if (!repeat_ || held_.engines == 0) return;
+    while (held_.tick + *repeat_ < tick) add(held_.tick + *repeat_);
+  }
+
+  void change(const hovercraft::Command& command, Tick tick) {
+    held_.engines = static_cast<hovercraft::EngineMask>(held_.engines | command.engines);
+    for (int i = 0; i < hovercraft::kEngineCount; ++i) {
+      const auto engine = static_cast<hovercraft::EngineId>(i);
+      if ((command.engines & hovercraft::maskOf(engine)) != 0) {
+        held_.thrusts[i] = command.thrusts[i];
+      }
+    }
+    add(tick);
+  }
+
+  hovercraft_sim::ScheduleCommands::Request& request() { return request_; }
+
+ private:
+  void add(Tick tick) {
+    held_.tick = tick;
+    request_.commands.push_back(toMessage(held_));
+    request_.commands.back().episode = episode_;
+  }
+
+  hovercraft_sim::ScheduleCommands::Request request_;
+  std::uint32_t episode_;
+  std::optional<Tick> repeat_;  // ticks; none: no engine of the craft times out
+  hovercraft::Command held_{0, 0, 0, Vector3::Zero()};
+};
 
 Tick ticksOf(double seconds, std::int64_t step_ns, const char* name) {
   if (!(seconds >= 0.0) || seconds * 1e9 > hovercraft::kMaxNanoseconds) {
@@ -86,7 +133,7 @@ hovercraft::Scenario Flight::receiveScenario() const {
   const std::string topic = node_ + "/scenario";
   const ros::Subscriber subscriber = handle.subscribe<std_msgs::String>(topic, 1, on_scenario);
   waitUntil("a scenario on " + topic, [&text] { return !text.empty(); });
-  return hovercraft::parseScenario(YAML::Load(text), {topic, "", {}});
+  return hovercraft::parseScenario(text, {topic, "", {}});
 }
 
 void Flight::call(const std::string& service) const {
@@ -108,7 +155,8 @@ void Flight::connect() {
     const boost::function<void(const hovercraft_sim::State&)> on_state =
         [this, i](const hovercraft_sim::State& state) { onState(i, state); };
     subscribers_.push_back(own.subscribe<hovercraft_sim::State>(
-        kStateTopic, kQueue, on_state, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+        kStateTopic, kFlightQueue, on_state, ros::VoidConstPtr(),
+        ros::TransportHints().tcpNoDelay()));
   }
   waitUntil("the states of every craft", [this] {
     return std::all_of(
@@ -135,7 +183,6 @@ void Flight::answer(std::size_t vehicle, const hovercraft_sim::State& state) {
       if ((played.next->engines & hovercraft::maskOf(engine)) == 0) continue;
       played.thrusts[played.next->vehicle][i] = played.next->thrusts[i];
     }
-    played.last = played.next->tick;
   }
   hovercraft_sim::ThrustCommand command;
   command.header.stamp = state.header.stamp;
@@ -145,8 +192,44 @@ void Flight::answer(std::size_t vehicle, const hovercraft_sim::State& state) {
   publishers_[vehicle].publish(command);
 }
 
-void Flight::play(const std::string& commands, double settle) {
-  const Tick after = ticksOf(settle, scenario_.step_ns, "settle");
+hovercraft_sim::ScheduleCommands::Response Flight::schedule(
+    const hovercraft_sim::ScheduleCommands::Request& commands) const {
+  hovercraft_sim::ScheduleCommands call;
+  call.request = commands;
+  const std::string name = node_ + "/schedule";
+  if (!ros::service::call(name, call) || !call.response.success) {
+    throw std::runtime_error(name + " failed: " + call.response.message);
+  }
+  return call.response;
+}
+
+/// Hands over every command of the file. @param settle ticks that the thrusts are held for at the
+/// end. @returns the tick of the last command.
+Tick Flight::scheduleAll(const std::string& commands, Tick now, Tick settle) {
+  const auto source = openCommands(commands, scenario_);
+  std::vector<HeldThrusts> held;
+  for (const hovercraft::VehicleScenario& craft : scenario_.vehicles) {
+    held.emplace_back(craft, scenario_.step_ns, *episode_);
+  }
+  Tick last = now;
+  while (const auto command = source->next()) {
+    last = std::max(now, command->tick);
+    HeldThrusts& craft = held[command->vehicle];
+    craft.holdUntil(last);
+    craft.change(*command, last);
+    if (craft.request().commands.size() >= kBatch) {
+      schedule(craft.request());
+      craft.request().commands.clear();
+    }
+  }
+  for (HeldThrusts& craft : held) {
+    craft.holdUntil(last + settle);
+    schedule(craft.request());
+  }
+  return last;
+}
+
+void Flight::answerStates(const std::string& commands) {
   Played played;
   played.source = openCommands(commands, scenario_);
   played.next = played.source->next();
@@ -154,15 +237,23 @@ void Flight::play(const std::string& commands, double settle) {
   played_ = std::move(played);
   for (const hovercraft::VehicleScenario& craft : scenario_.vehicles) {
     ros::NodeHandle own(handle_, craft.name);
-    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kQueue));
+    publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kFlightQueue));
   }
   waitUntil("somebody who takes the thrusts of every craft", [this] {
     return std::all_of(publishers_.begin(), publishers_.end(), [](const ros::Publisher& publisher) {
       return publisher.getNumSubscribers() > 0;
     });
   });
-  flyUntil("the end of " + commands,
-           [this, after] { return !played_->next && hasReached(played_->last + after); });
+}
+
+void Flight::play(const std::string& commands, double settle) {
+  const Tick after = ticksOf(settle, scenario_.step_ns, "settle");
+  hovercraft_sim::ScheduleCommands::Request none;
+  none.vehicle = scenario_.vehicles.front().name;
+  const auto now = schedule(none);
+  const Tick end = scheduleAll(commands, static_cast<Tick>(now.tick), after) + after;
+  if (now.control_period > 0) answerStates(commands);
+  flyUntil("the end of " + commands, [this, end] { return hasReached(end); });
   played_.reset();
   publishers_.clear();
 }

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <rosgraph_msgs/Clock.h>
 #include <stdexcept>
-#include <utility>
 
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
-#include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/steady_clock.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -20,32 +16,10 @@ namespace {
 constexpr std::int64_t kIdleWaitNs = 4000000;   // how soon an idle node looks at its clock again
 constexpr std::int64_t kStepSliceNs = 2000000;  // of stepping between two looks at the callbacks
 constexpr std::int64_t kLongestSleepNs =
-    10000000;                                   // so few steps that a callback can wait for them
-constexpr std::uint32_t kContactQueue = 10000;  // every contact belongs in a recording
-constexpr std::uint32_t kBodyQueue = 10;
-constexpr std::uint32_t kEventQueue = 1000;  // every event belongs in a recording
-constexpr std::uint32_t kTelemetryQueue = 10;
-constexpr std::uint32_t kClockQueue = 10;
+    10000000;  // so few steps that a callback can wait for them
 
 hovercraft::Tick nextMultiple(hovercraft::Tick tick, hovercraft::Tick period) {
   return (tick + period - 1) / period * period;
-}
-
-/// ROS time of tick 0: 0 where this node makes the time, else the wall time of its start.
-std::int64_t epochOf(const NodeConfig& config) {
-  return config.clock ? 0 : static_cast<std::int64_t>(ros::WallTime::now().toNSec());
-}
-
-ClockSource clockOn(ros::NodeHandle handle, double rate) {
-  // Latched: a node that starts while the simulation is paused learns the time as well.
-  const ros::Publisher publisher =
-      handle.advertise<rosgraph_msgs::Clock>("/clock", kClockQueue, true);
-  const auto publish = [publisher](const ros::Time& stamp) {
-    rosgraph_msgs::Clock clock;
-    clock.clock = stamp;
-    publisher.publish(clock);
-  };
-  return {publish, rate};
 }
 
 bool beginsEpisode(const hovercraft_sim::RunEvent& event) {
@@ -54,69 +28,6 @@ bool beginsEpisode(const hovercraft_sim::RunEvent& event) {
 }
 
 }  // namespace
-
-HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
-                               NodeConfig config)
-    : config_(std::move(config)),
-      run_(config_.scenario, epochOf(config_)),
-      lockstep_(config_.scenario.vehicles.size()),
-      paused_(config_.paused),
-      reported_drops_(config_.scenario.vehicles.size()),
-      reported_saturations_(config_.scenario.vehicles.size()),
-      diagnostics_(handle, private_handle) {
-  ros::NodeHandle own(private_handle);
-  for (std::size_t i = 0; i < config_.scenario.vehicles.size(); ++i) {
-    const auto take = [this](const hovercraft::Command& command,
-                             const std::optional<ros::Time>& stamp) {
-      return this->take(command, stamp);
-    };
-    vehicles_.push_back(std::make_unique<VehicleInterface>(handle, run_, i, config_.world_frame,
-                                                           take, config_.lockstep));
-    diagnostics_.add(config_.scenario.vehicles[i].name + ": commands",
-                     [this, i](diagnostic_updater::DiagnosticStatusWrapper& status) {
-                       reportCommands(status, i);
-                     });
-  }
-  run_.simulation().on_applied = [this](const hovercraft::Command& command) {
-    vehicles_[command.vehicle]->publishApplied(command);
-  };
-  bodies_ = bodyMessages(config_.scenario, config_.world_frame);
-  for (const BodyMessages& body : bodies_) {
-    ros::NodeHandle space(handle, body.name());
-    body_poses_.push_back(space.advertise<geometry_msgs::PoseStamped>(kPoseTopic, kBodyQueue));
-  }
-  if (config_.scenario.world) {
-    contacts_ = own.advertise<hovercraft_sim::Contact>("contacts", kContactQueue);
-    run_.simulation().on_contact = [this](const hovercraft::ContactEvent& event) {
-      contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.world_frame));
-    };
-  }
-  scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
-  events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
-  telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
-  if (config_.clock) clock_.emplace(clockOn(handle, config_.clock_rate));
-  publishConstants();
-
-  diagnostics_.setHardwareID("none");
-  diagnostics_.add("pace", [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
-    toDiagnostics(telemetry_message_, status);
-  });
-  report_timer_ = own.createWallTimer(ros::WallDuration(config_.diagnostic_period),
-                                      [this](const ros::WallTimerEvent&) { report(); });
-  setRealTimeFactor(config_.real_time_factor);
-}
-
-void HovercraftNode::publishConstants() {
-  std_msgs::String text;
-  text.data = hovercraft::toYaml(config_.scenario);
-  scenario_.publish(text);
-  std::vector<geometry_msgs::TransformStamped> frames;
-  for (const auto& vehicle : vehicles_) {
-    const auto engines = vehicle->messages().engineFrames(run_.stampOf(1));
-    frames.insert(frames.end(), engines.begin(), engines.end());
-  }
-  static_transforms_.sendTransform(frames);
-}
 
 void HovercraftNode::setRealTimeFactor(double real_time_factor) {
   catchUp();
@@ -179,6 +90,9 @@ hovercraft::Tick HovercraftNode::nextVisibleTick() const {
   if (simulation.world() != nullptr || simulation.hasWaitingCommands()) return next;
   hovercraft::Tick visible = nextMultiple(next, config_.publish_every);
   if (config_.lockstep) visible = std::min(visible, nextMultiple(next, config_.control_period));
+  if (const auto scheduled = schedule_.next()) {  // published by the step that it acts in
+    visible = std::min(visible, std::max(next, *scheduled + 1));
+  }
   if (clock_) {
     const std::int64_t step_ns = config_.scenario.step_ns;
     const hovercraft::Tick wait = (clock_->untilDueNs(run_.stamp()) + step_ns - 1) / step_ns;
@@ -234,10 +148,19 @@ void HovercraftNode::advance() {
     pace_.addStep(after - now);
     now = after;
   }
-  if (clock_) clock_->publishIfDue(run_.stamp(), now, isIdle());
+  if (clock_) clock_->publishIfDue(run_.headerStamp(), now, isIdle());
+}
+
+/// Scheduled commands come at their tick, as if they were sent then.
+void HovercraftNode::pushScheduled() {
+  while (auto command = schedule_.takeDue(run_.simulation().tick())) {
+    run_.simulation().push(*command);
+    vehicles_[command->vehicle]->noteSaturation(*command, "~schedule");
+  }
 }
 
 void HovercraftNode::stepOnce() {
+  pushScheduled();
   run_.simulation().step();
   const hovercraft::Tick tick = run_.simulation().tick();
   const bool ends_period = config_.lockstep && tick % config_.control_period == 0;
@@ -260,25 +183,39 @@ void HovercraftNode::stepPaused(std::uint32_t steps) {
   }
 }
 
-void HovercraftNode::publishState() {
-  transform_batch_.clear();
+/// Whether a newcomer would wait in vain: nothing is published by itself. No stamp is used twice:
+/// tick 0 has that of tick 1 where its own would be 0, which ROS takes for no time.
+bool HovercraftNode::stands() const {
+  const bool borrows_stamp = run_.stamp().isZero() && config_.publish_every == 1;
+  return isIdle() && !borrows_stamp;
+}
+
+/// Fills every message of the present tick.
+void HovercraftNode::gatherTransforms() {
+  transforms_message_.transforms.clear();
   for (const auto& vehicle : vehicles_) {
-    vehicle->publish();
-    transform_batch_.push_back(vehicle->messages().transform());
+    vehicle->refresh();
+    transforms_message_.transforms.push_back(vehicle->messages().transform());
   }
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    bodies_[i].fill(run_.simulation(), run_.stamp());
-    body_poses_[i].publish(bodies_[i].pose());
-    transform_batch_.push_back(bodies_[i].transform());
+  for (BodyMessages& body : bodies_) {
+    body.fill(run_.simulation(), run_.headerStamp());
+    transforms_message_.transforms.push_back(body.transform());
   }
-  transforms_.sendTransform(transform_batch_);
-  if (clock_) clock_->publishIfDue(run_.stamp(), steadyNow(), false);
+}
+
+void HovercraftNode::publishState() {
+  gatherTransforms();
+  for (const auto& vehicle : vehicles_) vehicle->publish();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) body_poses_[i].publish(bodies_[i].pose());
+  transforms_.publish(transforms_message_);
+  if (clock_) clock_->publishIfDue(run_.headerStamp(), steadyNow(), false);
 }
 
 void HovercraftNode::apply(const hovercraft_sim::RunEvent& event) {
   events_.publish(run_.apply(event));
   if (beginsEpisode(event)) {
     lockstep_.clear();
+    schedule_.clear();
     const hovercraft::Tick tick = run_.simulation().tick();
     if (config_.lockstep && tick > 0 && tick % config_.control_period == 0) {
       // Here the run that never stopped waited. The stamp is a new one: a late command for the

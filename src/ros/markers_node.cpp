@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <visualization_msgs/MarkerArray.h>
-#include <yaml-cpp/yaml.h>
 
 #include <ros/console.h>
 
@@ -14,11 +13,11 @@ namespace hovercraft_ros {
 namespace {
 
 constexpr double kRefreshPeriod = 0.05;  // s of wall time
-constexpr std::uint32_t kQueue = 10;
+constexpr std::uint32_t kDisplayQueue = 10;
 
-void append(visualization_msgs::MarkerArray& array,
+void append(std::vector<visualization_msgs::Marker>& array,
             const std::vector<visualization_msgs::Marker>& markers) {
-  array.markers.insert(array.markers.end(), markers.begin(), markers.end());
+  array.insert(array.end(), markers.begin(), markers.end());
 }
 
 }  // namespace
@@ -26,7 +25,7 @@ void append(visualization_msgs::MarkerArray& array,
 MarkersNode::MarkersNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle) {
   ros::NodeHandle own(private_handle);
-  publisher_ = own.advertise<visualization_msgs::MarkerArray>("markers", kQueue);
+  publisher_ = own.advertise<visualization_msgs::MarkerArray>("markers", kDisplayQueue);
   scenario_subscriber_ = handle_.subscribe("scenario", 1, &MarkersNode::onScenario, this);
   timer_ = own.createWallTimer(ros::WallDuration(kRefreshPeriod),
                                [this](const ros::WallTimerEvent&) { publish(); });
@@ -37,8 +36,8 @@ void MarkersNode::onScenario(const std_msgs::String& message) {
   still_.clear();
   scenario_ = hovercraft::Scenario();
   try {
-    const hovercraft::Scenario scenario = hovercraft::parseScenario(
-        YAML::Load(message.data), {handle_.resolveName("scenario"), "", {}});
+    const hovercraft::Scenario scenario =
+        hovercraft::parseScenario(message.data, {handle_.resolveName("scenario"), "", {}});
     for (const hovercraft::VehicleScenario& description : scenario.vehicles) watch(description);
     scenario_ = scenario;
   } catch (const std::exception& error) {
@@ -63,18 +62,21 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
   const boost::function<void(const hovercraft_sim::EngineStatus&)> on_engines =
       [craft](const hovercraft_sim::EngineStatus& engines) { craft->engines = engines; };
   craft->subscribers = {
-      own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kQueue, on_pose),
-      own.subscribe<hovercraft_sim::State>(kStateTopic, kQueue, on_state),
-      own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kQueue, on_engines)};
+      own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kDisplayQueue, on_pose),
+      own.subscribe<hovercraft_sim::State>(kStateTopic, kDisplayQueue, on_state),
+      own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kDisplayQueue, on_engines)};
 }
 
 /// What has the same marker at all times: obstacles, and the hulls of loose bodies, which tf moves.
-void MarkersNode::makeStill(const std::string& world_frame) {
-  still_ = obstacleMarkers(scenario_, world_frame);
+void MarkersNode::makeStill(const std::string& world_frame, const std::string& prefix) {
+  still_.clear();
+  still_prefix_ = prefix;
   if (!scenario_.world) return;
   for (const hovercraft::VehicleScenario& body : scenario_.world->bodies) {
     still_.push_back(bodyMarker(body));
   }
+  addPrefix(prefix, still_);
+  append(still_, obstacleMarkers(scenario_, world_frame));
 }
 
 void MarkersNode::publish() {
@@ -82,13 +84,16 @@ void MarkersNode::publish() {
   visualization_msgs::MarkerArray array;
   for (const auto& craft : craft_) {
     if (craft->world_frame.empty()) continue;  // no pose yet: tf does not know the craft
-    if (still_.empty()) makeStill(craft->world_frame);
-    append(array, craftMarkers(craft->description));
-    append(array, thrustMarkers(craft->description, craft->engines));
+    const std::string prefix = prefixOf(craft->engines.header.frame_id, craft->description.name);
+    if (still_.empty() || still_prefix_ != prefix) makeStill(craft->world_frame, prefix);
+    std::vector<visualization_msgs::Marker> fixed = craftMarkers(craft->description);
+    append(fixed, thrustMarkers(craft->description, craft->engines));
+    addPrefix(prefix, fixed);
+    append(array.markers, fixed);
     array.markers.push_back(
         pathMarker(craft->description, craft->world_frame, craft->path.points()));
   }
-  append(array, still_);
+  append(array.markers, still_);
   if (!array.markers.empty()) publisher_.publish(array);
 }
 

@@ -1,13 +1,16 @@
 #include "hovercraft_sim/ros/node_config.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
+#include <stdexcept>
 
 #include <ros/package.h>
 
-#include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -20,11 +23,11 @@ constexpr double kRateSlack = 1e-9;
 constexpr double kDefaultPublishRate = 100.0;  // Hz
 
 // Beyond it a count of steps is no exact double; such a period is a slip.
-constexpr double kMostSteps = 1e15;
+constexpr double kMostStepsOfPeriod = 1e15;
 
 /// How many steps a period is; none if these are not a whole number.
 std::optional<hovercraft::Tick> wholeSteps(double steps) {
-  if (!(steps <= kMostSteps)) return std::nullopt;
+  if (!(steps <= kMostStepsOfPeriod)) return std::nullopt;
   const hovercraft::Tick whole = std::llround(steps);
   if (whole < 1 || std::abs(steps - static_cast<double>(whole)) > kRateSlack * steps) {
     return std::nullopt;
@@ -58,8 +61,71 @@ const hovercraft::NumberRule kDiagnosticPeriodRule = {
     },
     "must be 0.01 to 3600 s"};
 
+/// A parameter that is true or false, in the words of YAML 1.1 and as the numbers that roslaunch's
+/// `if` takes.
+bool switchOr(bool fallback, const hovercraft::ConfigReader& reader, const char* key) {
+  static const std::map<std::string, bool> words = {{"true", true}, {"1", true},      {"yes", true},
+                                                    {"on", true},   {"false", false}, {"0", false},
+                                                    {"no", false},  {"off", false}};
+  if (!reader.has(key)) return fallback;
+  std::string word = reader.text(key);
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto found = words.find(word);
+  if (found == words.end()) reader.fail(key, "must be true or false (or 1, 0, yes, no, on, off)");
+  return found->second;
+}
+
+constexpr const char* kMissingScenario =
+    "the parameter is missing: give the text of a scenario file by <param name=\"scenario\" "
+    "textfile=\"FILE\"/> inside the <node>, as sim.launch does, or the path of one on the node's "
+    "machine as scenario_file";
+constexpr const char* kScenarioTree =
+    "must be the text of a scenario file; since version 0.2.0 its tree is refused, as a parameter "
+    "server loses part of it: write <param name=\"scenario\" textfile=\"FILE\"/> in the place of "
+    "<rosparam command=\"load\" ns=\"scenario\" file=\"FILE\"/>";
+
+std::string packageFolder(const std::string& package) {
+  return ros::package::getPath(package);
+}
+
+/// A path of the node's machine, whose working folder nobody knows.
+std::string absolutePath(const hovercraft::ConfigReader& reader, const char* key) {
+  const std::string path = reader.text(key);
+  if (path.front() != '/') reader.fail(key, "must be an absolute path");
+  return path;
+}
+
+hovercraft::OverrideList readOverrides(const hovercraft::ConfigReader& reader,
+                                       const hovercraft::ConfigNode& parameters) {
+  const hovercraft::ConfigNode* const set = parameters.find("set");
+  if (set == nullptr || set->isNull()) return {};
+  if (!set->isText()) reader.fail("set", "must be a text: KEY.PATH=VALUE; KEY.PATH=VALUE");
+  return {reader.source() + "/set", {set->text()}};
+}
+
+hovercraft::Scenario readScenario(const hovercraft::ConfigReader& reader,
+                                  const hovercraft::ConfigNode& parameters) {
+  const std::string name = reader.source() + "/scenario";
+  const hovercraft::ConfigNode* const text = parameters.find("scenario");
+  if (text != nullptr && !text->isText()) throw std::invalid_argument(name + ": " + kScenarioTree);
+  const hovercraft::OverrideList overrides = readOverrides(reader, parameters);
+  const hovercraft::ConfigNode* const folder = parameters.find("scenario_dir");
+  const bool has_folder = folder != nullptr && !(folder->isText() && folder->text().empty());
+  if (reader.has("scenario_file")) {
+    if (text != nullptr) reader.fail("scenario_file", "must not stand beside scenario: give one");
+    if (has_folder) reader.fail("scenario_dir", "belongs to scenario: a file has its own folder");
+    return hovercraft::loadScenario(absolutePath(reader, "scenario_file"), packageFolder,
+                                    overrides);
+  }
+  if (text == nullptr) throw std::invalid_argument(name + ": " + kMissingScenario);
+  return hovercraft::parseScenario(
+      text->text(), {name, has_folder ? absolutePath(reader, "scenario_dir") : "", packageFolder},
+      overrides);
+}
+
 void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
-  config.lockstep = reader.flagOr(config.lockstep, "lockstep");
+  config.lockstep = switchOr(config.lockstep, reader, "lockstep");
   config.lockstep_timeout =
       reader.numberOr(config.lockstep_timeout, "lockstep_timeout", hovercraft::kPositive);
   config.control_period = config.publish_every;
@@ -76,6 +142,18 @@ void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
   config.control_period = *steps;
 }
 
+TfFrames readFrames(const hovercraft::ConfigReader& reader) {
+  TfFrames frames;
+  if (reader.has("world_frame")) frames.world = reader.text("world_frame");
+  if (frames.world.front() == '/') reader.fail("world_frame", "must not begin with a slash (tf2)");
+  if (!reader.has("tf_prefix")) return frames;
+  frames.prefix = reader.text("tf_prefix");
+  if (frames.prefix.front() == '/' || frames.prefix.back() == '/') {
+    reader.fail("tf_prefix", "must not begin or end with a slash");
+  }
+  return frames;
+}
+
 }  // namespace
 
 const char* const kRealTimeFactorRuleText = "must be 0 (as fast as it can) or 1e-6 to 1000";
@@ -85,31 +163,20 @@ bool isRealTimeFactor(double factor) {
          (factor >= NodeConfig::kMinRealTimeFactor && factor <= NodeConfig::kMaxRealTimeFactor);
 }
 
-NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name) {
-  if (!parameters.IsMap() || !parameters["scenario"].IsDefined()) {
-    throw std::invalid_argument(
-        node_name +
-        "/scenario: the parameter is missing; load a scenario with <rosparam "
-        "command=\"load\" ns=\"scenario\" file=\"...\"/> inside the <node>, as sim.launch does");
-  }
+NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name) {
+  const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::ConfigReader reader(parameters, node_name);
-  reader.allowOnly({"scenario", "publish_rate", "world_frame", "real_time_factor", "paused",
-                    "clock", "clock_rate", "lockstep", "control_period", "lockstep_timeout",
-                    "diagnostic_period"});
+  reader.allowOnly({"scenario", "scenario_dir", "scenario_file", "set", "publish_rate",
+                    "world_frame", "tf_prefix", "real_time_factor", "paused", "clock", "clock_rate",
+                    "lockstep", "control_period", "lockstep_timeout", "diagnostic_period"});
   NodeConfig config;
-  config.scenario = hovercraft::parseScenario(
-      parameters["scenario"], {node_name + "/scenario", "", [](const std::string& package) {
-                                 return ros::package::getPath(package);
-                               }});
+  config.scenario = readScenario(reader, parameters);
   config.publish_every = publishPeriod(reader, config.scenario.stepSize());
-  config.world_frame = reader.has("world_frame") ? reader.text("world_frame") : kDefaultWorldFrame;
-  if (config.world_frame.front() == '/') {
-    reader.fail("world_frame", "must not begin with a slash (tf2)");
-  }
+  config.frames = readFrames(reader);
   config.real_time_factor = reader.numberOr(config.real_time_factor, "real_time_factor",
                                             {isRealTimeFactor, kRealTimeFactorRuleText});
-  config.paused = reader.flagOr(config.paused, "paused");
-  config.clock = reader.flagOr(config.clock, "clock");
+  config.paused = switchOr(config.paused, reader, "paused");
+  config.clock = switchOr(config.clock, reader, "clock");
   config.clock_rate = reader.numberOr(config.clock_rate, "clock_rate", kClockRateRule);
   readLockstep(reader, config);
   config.diagnostic_period =

@@ -8,6 +8,7 @@
 
 #include <hovercraft_sim/ApplyWrench.h>
 #include <hovercraft_sim/Reset.h>
+#include <hovercraft_sim/ScheduleCommands.h>
 #include <hovercraft_sim/SetState.h>
 #include <hovercraft_sim/Snapshot.h>
 #include <hovercraft_sim/Step.h>
@@ -20,7 +21,7 @@ namespace {
 
 /// Bound on one ~step: an hour at 1 kHz. Whoever wants more asks again, and callbacks are served
 /// between.
-constexpr std::uint32_t kMostSteps = 3600000;
+constexpr std::uint32_t kMostStepsAsked = 3600000;
 
 template <class Service>
 ros::ServiceServer serve(HovercraftNode& node, ros::NodeHandle& handle, const std::string& name,
@@ -53,9 +54,9 @@ void step(HovercraftNode& node, const hovercraft_sim::Step::Request& request) {
   if (node.config().lockstep) {
     throw std::invalid_argument("in lockstep it is the commands that move the simulation: ~resume");
   }
-  if (request.steps > kMostSteps) {
+  if (request.steps > kMostStepsAsked) {
     throw std::invalid_argument("steps = " + std::to_string(request.steps) + ": must be at most " +
-                                std::to_string(kMostSteps));
+                                std::to_string(kMostStepsAsked));
   }
   node.stepPaused(request.steps);
 }
@@ -91,10 +92,21 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
       node_, own, "apply_wrench", [this](const auto& request, auto& response) {
         const hovercraft::Tick tick = node_.liveRun().simulation().tick();
         const auto event =
-            applyWrenchEvent(node_.config().scenario, request, node_.config().world_frame, tick);
+            applyWrenchEvent(node_.config().scenario, request, node_.config().frames, tick);
         node_.apply(event);
         response.tick = static_cast<std::uint64_t>(tick);
         response.end_tick = event.end_tick;
+      }));
+  servers_.push_back(serve<hovercraft_sim::ScheduleCommands>(
+      node_, own, "schedule", [this](const auto& request, auto& response) {
+        const hovercraft::Tick tick = node_.liveRun().simulation().tick();
+        response.tick = static_cast<std::uint64_t>(tick);
+        response.episode = node_.liveRun().episode();
+        const NodeConfig& config = node_.config();
+        if (config.lockstep) {
+          response.control_period = static_cast<std::uint64_t>(config.control_period);
+        }
+        node_.schedule(scheduledCommands(config.scenario, request, response.episode, tick));
       }));
   servers_.push_back(serve<hovercraft_sim::Snapshot>(
       node_, own, "save", [this](const auto& request, auto& response) {

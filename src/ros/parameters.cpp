@@ -2,60 +2,49 @@
 
 #include <fmt/format.h>
 #include <stdexcept>
-#include <string>
+
+#include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft_ros {
 namespace {
 
-/// XmlRpcValue converts in place: its accessors are not const.
-template <class T>
-T valueOf(const XmlRpc::XmlRpcValue& value) {
-  XmlRpc::XmlRpcValue copy = value;
-  return static_cast<T>(copy);
-}
+using hovercraft::ConfigNode;
+using XmlRpc::XmlRpcValue;
 
-/// @param path of the value within the source; empty at the top.
-YAML::Node treeOf(const XmlRpc::XmlRpcValue& value, const std::string& source,
-                  const std::string& path) {
-  using XmlRpc::XmlRpcValue;
+/// @param value not const, as the accessors of XmlRpcValue are not.
+ConfigNode nodeOf(XmlRpcValue& value, const std::string& name) {
+  const auto plain = [](std::string text) { return ConfigNode::ofText(std::move(text), true); };
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
-      return YAML::Node(valueOf<bool>(value) ? "true" : "false");
+      return plain(static_cast<bool>(value) ? "true" : "false");
     case XmlRpcValue::TypeInt:
-      return YAML::Node(fmt::format("{}", valueOf<int>(value)));
+      return plain(fmt::format("{}", static_cast<int>(value)));
     case XmlRpcValue::TypeDouble:
-      return YAML::Node(fmt::format("{:.17g}", valueOf<double>(value)));
+      return plain(hovercraft::numberText(static_cast<double>(value)));
     case XmlRpcValue::TypeString:
-      return YAML::Node(valueOf<std::string>(value));
-    case XmlRpcValue::TypeArray: {
-      YAML::Node sequence(YAML::NodeType::Sequence);
-      for (int i = 0; i < value.size(); ++i) {
-        XmlRpcValue copy = value;
-        sequence.push_back(treeOf(copy[i], source, fmt::format("{}[{}]", path, i)));
-      }
-      return sequence;
-    }
-    case XmlRpcValue::TypeStruct: {
-      YAML::Node map(YAML::NodeType::Map);
-      XmlRpcValue copy = value;
-      const std::string prefix = path.empty() ? "" : path + ".";
-      for (auto& member : copy) {
-        map[member.first] = treeOf(member.second, source, prefix + member.first);
-      }
-      return map;
-    }
+      return plain(static_cast<std::string>(value));
+    case XmlRpcValue::TypeArray:
+      return ConfigNode::ofList({});
+    case XmlRpcValue::TypeStruct:
+      return ConfigNode::ofMap({});
     case XmlRpcValue::TypeInvalid:
-      return YAML::Node();
+      return {};
     default:
-      throw std::invalid_argument(fmt::format("{}{}{}: must be a number, text, list or map", source,
-                                              path.empty() ? "" : ": ", path));
+      throw std::invalid_argument(name + ": must be a number, true or false, or a text");
   }
 }
 
 }  // namespace
 
-YAML::Node toYaml(const XmlRpc::XmlRpcValue& value, const std::string& source) {
-  return treeOf(value, source, "");
+ConfigNode parameterTree(const XmlRpcValue& parameters, const std::string& name) {
+  ConfigNode::Map members;
+  if (parameters.getType() == XmlRpcValue::TypeStruct) {
+    XmlRpcValue copy = parameters;
+    for (auto& [key, value] : copy) {
+      members.emplace_back(key, nodeOf(value, fmt::format("{}: {}", name, key)));
+    }
+  }
+  return ConfigNode::ofMap(std::move(members));
 }
 
 }  // namespace hovercraft_ros

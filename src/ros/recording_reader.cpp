@@ -110,6 +110,7 @@ class Reader {
       throw std::invalid_argument(path_ + ": there is no state (hovercraft_sim/State) in it");
     }
     sort();
+    forgetWhereItStood();
     findGaps();
     return std::move(recording_);
   }
@@ -126,8 +127,7 @@ class Reader {
       }
       recording_.scenario_text = messageAs<std_msgs::String>(path_, instance)->data;
       const std::string source = path_ + ": " + topic;
-      recording_.scenario = hovercraft::parseScenario(
-          hovercraft::treeOf(recording_.scenario_text, source), {source, "", {}});
+      recording_.scenario = hovercraft::parseScenario(recording_.scenario_text, {source, "", {}});
       return;
     }
     throw std::invalid_argument(path_ +
@@ -181,6 +181,8 @@ class Reader {
       failAt(path_, instance,
              fmt::format("tick = {}: must not be more steps than its stamp allows", tick));
     }
+    // ROS takes time 0 for no time: what is of tick 0 is then stamped as tick 1.
+    if (tick == 0 && stamp_ns == step_ns) return;
     const std::int64_t epoch_ns = stamp_ns - tick * step_ns;
     if (epochs_ns_.emplace(state.episode, epoch_ns).first->second == epoch_ns) return;
     failAt(path_, instance,
@@ -191,6 +193,25 @@ class Reader {
 
   [[noreturn]] void failAsTwoRuns(const rosbag::MessageInstance& instance) const {
     failAt(path_, instance, "more than one run is in this bag; record each into a bag of its own");
+  }
+
+  /// A recorder that comes to a run that stands is given the state of that tick. Where a reset or a
+  /// load follows at once, it is all that the bag has of the episode before: nothing is missing of
+  /// what was recorded then.
+  void forgetWhereItStood() {
+    auto& states = recording_.states;
+    const RunTime first = states.front().time;
+    const auto is_of_it = [&](const RunTime& time) { return time.episode == first.episode; };
+    const auto end = std::find_if(states.begin(), states.end(),
+                                  [&](const auto& recorded) { return !is_of_it(recorded.time); });
+    const bool moves = std::any_of(states.begin(), end,
+                                   [&](const auto& recorded) { return first < recorded.time; });
+    const bool has_more =
+        std::any_of(recording_.events.begin(), recording_.events.end(),
+                    [&](const RunEvent& event) { return is_of_it(timeOf(event)); }) ||
+        std::any_of(recording_.commands.begin(), recording_.commands.end(),
+                    [&](const auto& command) { return is_of_it(command.time); });
+    if (end != states.end() && !moves && !has_more) states.erase(states.begin(), end);
   }
 
   /// States say how many commands and events they rest on.

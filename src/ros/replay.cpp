@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cstring>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <stdexcept>
-#include <yaml-cpp/yaml.h>
 
 #include <ros/package.h>
 
 #include "hovercraft_sim/ros/bag_writer.h"
 #include "hovercraft_sim/ros/run_events.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
@@ -34,8 +35,8 @@ class FieldComparison {
   void add(const char* field, double recorded, double replayed) {
     if (field_ != nullptr || bitsOf(recorded) == bitsOf(replayed)) return;
     field_ = field;
-    recorded_ = fmt::format("{:.17g}", recorded);
-    replayed_ = fmt::format("{:.17g}", replayed);
+    recorded_ = hovercraft::numberText(recorded);
+    replayed_ = hovercraft::numberText(replayed);
   }
   void add(const char* field, const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b) {
     add(field, a.x, b.x);
@@ -104,6 +105,7 @@ class Replayer {
         continue;
       }
       advanceTo(recorded.time);
+      applyEventsOfThisTick(recorded.state.events);  // of a run that stood, states come after them
       tellObserver(recorded.time);
       if (compares) {
         messages_[recorded.vehicle].fill(simulation_, {recorded.state.header.stamp, episode_});
@@ -183,10 +185,11 @@ class Replayer {
     }
   }
 
-  void applyEventsOfThisTick() {
+  /// @param last number of the last one that is wanted.
+  void applyEventsOfThisTick(std::uint64_t last = std::numeric_limits<std::uint64_t>::max()) {
     while (event_ < recording_.events.size()) {
       const RunEvent& event = recording_.events[event_];
-      if (beginsEpisode(event) || event.episode != episode_ ||
+      if (beginsEpisode(event) || event.episode != episode_ || event.number > last ||
           static_cast<hovercraft::Tick>(event.tick) != simulation_.tick()) {
         return;
       }
@@ -222,29 +225,6 @@ class Replayer {
   std::optional<RunTime> told_;
   ReplayResult result_;
 };
-
-/// Sets one key of the scenario's tree, which must exist there.
-void setKey(const YAML::Node& tree, const std::string& assignment) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw std::invalid_argument("--set " + assignment + ": must be KEY.PATH=VALUE");
-  }
-  std::string path = assignment.substr(0, equals);
-  YAML::Node node = tree;
-  std::size_t dot = 0;
-  while ((dot = path.find('.')) != std::string::npos) {
-    node.reset(node[path.substr(0, dot)]);
-    path.erase(0, dot + 1);
-    if (!node.IsDefined() || !node.IsMap()) {
-      throw std::invalid_argument("--set " + assignment + ": there is no such key in the scenario");
-    }
-  }
-  const YAML::Node& parent = node;
-  if (!parent[path].IsDefined()) {
-    throw std::invalid_argument("--set " + assignment + ": there is no such key in the scenario");
-  }
-  node[path] = hovercraft::treeOf(assignment.substr(equals + 1), "--set " + assignment);
-}
 
 std::string verdictOf(const ReplayResult& result, const Recording& recording) {
   const std::string missing_states =
@@ -282,11 +262,11 @@ ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scen
 int replayBag(const ReplayRequest& request, std::string& verdict) {
   hovercraft::checkOutputs({{"--output", request.output}}, {request.bag});
   const Recording recording = readRecording(request.bag);
-  const YAML::Node tree = hovercraft::treeOf(recording.scenario_text, request.bag + ": ~scenario");
-  for (const std::string& assignment : request.sets) setKey(tree, assignment);
+  const std::string source = request.bag + ": ~scenario";
   const hovercraft::Scenario scenario = hovercraft::parseScenario(
-      tree, {request.bag + ": ~scenario", "",
-             [](const std::string& package) { return ros::package::getPath(package); }});
+      recording.scenario_text,
+      {source, "", [](const std::string& package) { return ros::package::getPath(package); }},
+      {"--set", request.sets});
 
   std::unique_ptr<BagWriter> writer;
   ReplayObserver observer;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/sim/command_source.h"
@@ -60,6 +61,7 @@ RunEvent loadEvent(const std::string& snapshot) {
 
 RunEvent setStateEvent(const hovercraft::Scenario& scenario,
                        const hovercraft_sim::SetState::Request& request) {
+  const hovercraft::FloatingPointEnvironment environment;
   const std::size_t vehicle = vehicleIndex(scenario, request.vehicle);
   const Vector3 p_WH = fromMessage(request.pose.position);
   const hovercraft::Quaternion q_WH = fromMessage(request.pose.orientation);
@@ -89,14 +91,14 @@ RunEvent setStateEvent(const hovercraft::Scenario& scenario,
 
 RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
                           const hovercraft_sim::ApplyWrench::Request& request,
-                          const std::string& world_frame, hovercraft::Tick tick) {
+                          const TfFrames& frames, hovercraft::Tick tick) {
   vehicleIndex(scenario, request.vehicle);
   requireFinite(fromMessage(request.wrench.force), "wrench.force");
   requireFinite(fromMessage(request.wrench.torque), "wrench.torque");
-  const std::string base_frame = request.vehicle + "/base_link";
+  const std::string base_frame = frames.of(request.vehicle);
   require(
-      request.frame_id == world_frame || request.frame_id == base_frame,
-      fmt::format("frame_id = {}: must be {} or {}", request.frame_id, world_frame, base_frame));
+      request.frame_id == frames.world || request.frame_id == base_frame,
+      fmt::format("frame_id = {}: must be {} or {}", request.frame_id, frames.world, base_frame));
   const std::int64_t duration_ns = request.duration.toNSec();
   require(duration_ns > 0, "duration: must be greater than 0");
   RunEvent event;
@@ -144,6 +146,7 @@ void load(const RunEvent& event, hovercraft::Simulation& simulation) {
 }  // namespace
 
 void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
+  const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::Scenario& scenario = simulation.scenario();
   switch (event.kind) {
     case RunEvent::RESET:

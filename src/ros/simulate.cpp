@@ -1,6 +1,6 @@
 #include "hovercraft_sim/ros/simulate.h"
 
-#include <chrono>
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
@@ -9,11 +9,13 @@
 
 #include <ros/package.h>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/ros/bag_file.h"
 #include "hovercraft_sim/ros/bag_writer.h"
 #include "hovercraft_sim/ros/commands_bag.h"
 #include "hovercraft_sim/ros/progress_bar.h"
+#include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/sim/commands_csv.h"
 #include "hovercraft_sim/sim/contacts_csv.h"
 #include "hovercraft_sim/sim/number_text.h"
@@ -31,6 +33,7 @@ namespace fs = std::filesystem;
 namespace {
 
 Tick ticksOfDuration(const std::string& text, const Scenario& scenario) {
+  const hovercraft::FloatingPointEnvironment environment;
   const auto fail = [&](const std::string& rule) {
     throw std::invalid_argument(fmt::format("--duration = {}: {}", text, rule));
   };
@@ -68,6 +71,52 @@ void checkRequest(const SimulateRequest& request) {
                            {request.scenario, request.commands});
 }
 
+/// Hands everything on to another sink, and counts the wall time that this one takes.
+class TimedSink : public hovercraft::StateSink {
+ public:
+  explicit TimedSink(std::unique_ptr<hovercraft::StateSink> next) : next_(std::move(next)) {}
+
+  void state(const hovercraft::Simulation& simulation) override {
+    timed([&] { next_->state(simulation); });
+  }
+  void applied(const hovercraft::Command& command) override {
+    timed([&] { next_->applied(command); });
+  }
+  void contact(const hovercraft::ContactEvent& event) override {
+    timed([&] { next_->contact(event); });
+  }
+  void close() override {
+    timed([&] { next_->close(); });
+  }
+
+  std::int64_t spentNs() const { return spent_ns_; }
+
+ private:
+  template <class Call>
+  void timed(const Call& call) {
+    const std::int64_t begin = steadyNow();
+    call();
+    spent_ns_ += steadyNow() - begin;
+  }
+
+  std::unique_ptr<hovercraft::StateSink> next_;
+  std::int64_t spent_ns_ = 0;
+};
+
+/// What a step cost, without the output, and what the whole run took.
+void reportTime(const hovercraft::Simulation& simulation, std::int64_t wall_ns,
+                std::int64_t output_ns, std::ostream& messages) {
+  const auto ticks = static_cast<double>(simulation.tick());
+  const auto stepping = static_cast<double>(std::max<std::int64_t>(wall_ns - output_ns, 1));
+  const double wall = static_cast<double>(std::max<std::int64_t>(wall_ns, 1));
+  const auto simulated = static_cast<double>(simulation.timeNs());
+  messages << fmt::format("a step cost {:.0f} ns, {:.3g} x real time, without the output\n",
+                          stepping / ticks, simulated / stepping);
+  messages << fmt::format("simulated {} s in {} ticks, wall time {:.3f} s, {:.0f} x real time, ",
+                          hovercraft::secondsText(simulation.timeNs()), simulation.tick(),
+                          1e-9 * wall, simulated / wall);
+}
+
 void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scenario,
                     std::ostream& messages) {
   for (const hovercraft::EngineTimeout& timeout : summary.timeouts) {
@@ -85,9 +134,9 @@ void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scena
 
 }  // namespace
 
-Scenario loadScenarioFile(const std::string& path) {
+Scenario loadScenarioFile(const std::string& path, const hovercraft::OverrideList& overrides) {
   return hovercraft::loadScenario(
-      path, [](const std::string& package) { return ros::package::getPath(package); });
+      path, [](const std::string& package) { return ros::package::getPath(package); }, overrides);
 }
 
 std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
@@ -114,7 +163,7 @@ std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
 
 hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages) {
   checkRequest(request);
-  Scenario scenario = loadScenarioFile(request.scenario);
+  Scenario scenario = loadScenarioFile(request.scenario, {"--set", request.sets});
   if (request.hold) {
     for (hovercraft::VehicleScenario& vehicle : scenario.vehicles) {
       for (hovercraft::EngineParameters& engine : vehicle.engines) engine.timeout_ns = 0;
@@ -138,9 +187,10 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
     bar.emplace(messages, plan.last_tick);
     plan.on_progress = [&bar](Tick tick) { bar->show(tick); };
   }
-  const auto begin = std::chrono::steady_clock::now();
-  hovercraft::RunSummary summary = hovercraft::run(simulation, *commands, *output, plan);
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  TimedSink timed(std::move(output));
+  const std::int64_t begin = steadyNow();
+  hovercraft::RunSummary summary = hovercraft::run(simulation, *commands, timed, plan);
+  const std::int64_t wall_ns = steadyNow() - begin;
   bar.reset();
 
   reportTimeouts(summary, scenario, messages);
@@ -150,10 +200,8 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
         "allow (doc/contact.md)\n",
         simulation.world()->stalls());
   }
-  messages << fmt::format(
-      "simulated {} s in {} ticks, wall time {:.3f} s, {:.0f} x real time, state hash {:016x}\n",
-      hovercraft::secondsText(simulation.timeNs()), simulation.tick(), wall.count(),
-      hovercraft::toSeconds(simulation.timeNs()) / wall.count(), summary.hash);
+  reportTime(simulation, wall_ns, timed.spentNs(), messages);
+  messages << fmt::format("state hash {:016x}\n", summary.hash);
   return summary;
 }
 

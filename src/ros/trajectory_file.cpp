@@ -114,29 +114,41 @@ Trajectory SpaceReader::fromState() {
   Trajectory trajectory = emptyTrajectory(topic(kStateTopic) + ", centre of mass");
   std::vector<std::int64_t> stamps_ns;
   std::optional<std::uint32_t> first_episode;
-  forEach<hovercraft_sim::State>(
-      kStateTopic, [&](const auto& state, const rosbag::MessageInstance& instance) {
-        if (first_episode.value_or(state.episode) != state.episode) {
-          failAt(path_, instance,
-                 fmt::format("episode {}: must be episode {} as before; a trajectory has no reset",
-                             state.episode, *first_episode));
-        }
-        first_episode = state.episode;
-        TrajectorySample sample;
-        sample.time_ns = static_cast<std::int64_t>(state.tick);  // times the step size, below
-        sample.p_WB = fromMessage(state.pose.position);
-        sample.q_WB = fromMessage(state.pose.orientation);
-        sample.v_WB = fromMessage(state.velocity);
-        sample.w_WB = fromMessage(state.angular_velocity);
-        add(trajectory, sample, instance);
-        stamps_ns.push_back(toNs(state.header.stamp));
-      });
+  // A recorder that comes to a run that stands is given the state of that tick; a reset may follow.
+  bool shows_where_it_stood = false;
+  forEach<hovercraft_sim::State>(kStateTopic, [&](const auto& state,
+                                                  const rosbag::MessageInstance& instance) {
+    if (state.episode != first_episode && trajectory.samples.size() == 1 && !shows_where_it_stood) {
+      shows_where_it_stood = true;
+      trajectory.samples.clear();
+      stamps_ns.clear();
+      first_episode.reset();
+    }
+    if (first_episode.value_or(state.episode) != state.episode) {
+      failAt(path_, instance,
+             fmt::format("episode {}: must be episode {} as before; a trajectory has no reset",
+                         state.episode, *first_episode));
+    }
+    first_episode = state.episode;
+    TrajectorySample sample;
+    sample.time_ns = static_cast<std::int64_t>(state.tick);  // times the step size, below
+    sample.p_WB = fromMessage(state.pose.position);
+    sample.q_WB = fromMessage(state.pose.orientation);
+    sample.v_WB = fromMessage(state.velocity);
+    sample.w_WB = fromMessage(state.angular_velocity);
+    add(trajectory, sample, instance);
+    stamps_ns.push_back(toNs(state.header.stamp));
+  });
   std::vector<TrajectorySample>& samples = trajectory.samples;
   if (samples.size() == 1) {
     samples.front().time_ns = stamps_ns.front();
     return trajectory;
   }
   const std::int64_t ticks = samples.back().time_ns - samples.front().time_ns;
+  // ROS takes time 0 for no time: what is of tick 0 is then stamped as tick 1.
+  const bool borrows_stamp = samples.front().time_ns == 0 && stamps_ns.back() % ticks == 0 &&
+                             stamps_ns.back() / ticks == stamps_ns.front();
+  if (borrows_stamp) stamps_ns.front() = 0;
   const std::int64_t step_ns = (stamps_ns.back() - stamps_ns.front()) / ticks;
   const std::int64_t epoch_ns = stamps_ns.front() - samples.front().time_ns * step_ns;
   for (std::size_t i = 0; i < samples.size(); ++i) {

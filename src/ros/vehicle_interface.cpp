@@ -33,20 +33,33 @@ bool exceedsLimits(const hovercraft::Command& command, const hovercraft::Vehicle
 }  // namespace
 
 VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun& run,
-                                   std::size_t vehicle, const std::string& world_frame,
-                                   CommandSink sink, bool latched)
+                                   std::size_t vehicle, const TfFrames& frames, Owner owner,
+                                   bool latched)
     : run_(run),
       vehicle_(vehicle),
-      sink_(std::move(sink)),
-      messages_(run.simulation().scenario(), vehicle, world_frame) {
+      owner_(std::move(owner)),
+      messages_(run.simulation().scenario(), vehicle, frames) {
   ros::NodeHandle own(handle, messages_.name());
-  pose_ = own.advertise<geometry_msgs::PoseStamped>(kPoseTopic, kStateQueue, latched);
-  twist_ = own.advertise<geometry_msgs::TwistStamped>(kTwistTopic, kStateQueue, latched);
-  odom_ = own.advertise<nav_msgs::Odometry>(kOdomTopic, kStateQueue, latched);
-  engines_ = own.advertise<hovercraft_sim::EngineStatus>(kEnginesTopic, kStateQueue, latched);
-  state_ = own.advertise<hovercraft_sim::State>(kStateTopic, kStateQueue, latched);
+  pose_ = advertise(own, kPoseTopic, &VehicleMessages::pose, latched);
+  twist_ = advertise(own, kTwistTopic, &VehicleMessages::twist, latched);
+  odom_ = advertise(own, kOdomTopic, &VehicleMessages::odom, latched);
+  engines_ = advertise(own, kEnginesTopic, &VehicleMessages::engines, latched);
+  state_ = advertise(own, kStateTopic, &VehicleMessages::state, latched);
   commands_ = own.advertise<hovercraft_sim::AppliedCommand>(kCommandsTopic, kCommandQueue);
   subscribe(own);
+}
+
+template <class Message>
+NewcomerPublisher<Message> VehicleInterface::advertise(ros::NodeHandle& handle, const char* topic,
+                                                       const Message& (VehicleMessages::*message)()
+                                                           const,
+                                                       bool latched) {
+  const auto present = [this, message]() -> const Message* {
+    if (!owner_.stands()) return nullptr;
+    refresh();
+    return &(messages_.*message)();
+  };
+  return {handle, topic, kStateQueue, present, latched};
 }
 
 void VehicleInterface::subscribe(ros::NodeHandle& handle) {
@@ -75,7 +88,7 @@ void VehicleInterface::subscribe(ros::NodeHandle& handle) {
 
 void VehicleInterface::take(const std::optional<hovercraft::Command>& command,
                             const std::string& topic, const std::optional<ros::Time>& stamp) {
-  const char* refusal = command ? sink_(*command, stamp) : "a thrust must be finite";
+  const char* refusal = command ? owner_.take(*command, stamp) : "a thrust must be finite";
   if (refusal != nullptr) {
     ++dropped_commands_;
     if (drop_warnings_.isDue(steadyNow())) {
@@ -84,17 +97,26 @@ void VehicleInterface::take(const std::optional<hovercraft::Command>& command,
     }
     return;
   }
+  noteSaturation(*command, topic);
+}
+
+void VehicleInterface::noteSaturation(const hovercraft::Command& command,
+                                      const std::string& source) {
   const auto& craft = run_.simulation().scenario().vehicles[vehicle_];
-  if (!exceedsLimits(*command, craft)) return;
+  if (!exceedsLimits(command, craft)) return;
   ++saturated_commands_;
   if (saturation_warnings_.isDue(steadyNow())) {
-    ROS_WARN("%s: a thrust beyond the engine's limits is saturated (%lu so far)", topic.c_str(),
+    ROS_WARN("%s: a thrust beyond the engine's limits is saturated (%lu so far)", source.c_str(),
              static_cast<unsigned long>(saturated_commands_));
   }
 }
 
+std::vector<std::string> VehicleInterface::topics() const {
+  return {pose_.topic(),    twist_.topic(), odom_.topic(),
+          engines_.topic(), state_.topic(), commands_.getTopic()};
+}
+
 void VehicleInterface::publish() {
-  messages_.fill(run_.simulation(), run_.place());
   pose_.publish(messages_.pose());
   twist_.publish(messages_.twist());
   odom_.publish(messages_.odom());

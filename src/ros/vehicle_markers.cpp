@@ -8,6 +8,7 @@
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/tf_frames.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
@@ -39,7 +40,7 @@ constexpr double kPathWidth = 0.03;         // m
 Marker marker(const hovercraft::VehicleScenario& craft, const std::string& kind, int id, int type,
               const Color& color) {
   Marker result;
-  result.header.frame_id = craft.name + "/base_link";
+  result.header.frame_id = TfFrames().of(craft.name);
   result.ns = craft.name + "/" + kind;
   result.id = id;
   result.type = type;
@@ -206,6 +207,11 @@ std::vector<Marker> obstacleMarkers(const hovercraft::Scenario& scenario,
     markers.push_back(result);
   }
   return markers;
+}
+
+void addPrefix(const std::string& prefix, std::vector<Marker>& markers) {
+  if (prefix.empty()) return;
+  for (Marker& each : markers) each.header.frame_id.insert(0, prefix + "/");
 }
 
 Marker pathMarker(const hovercraft::VehicleScenario& craft, const std::string& world_frame,

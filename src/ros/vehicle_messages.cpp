@@ -1,5 +1,7 @@
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
+#include <utility>
+
 #include "hovercraft_sim/ros/conversions.h"
 
 namespace hovercraft_ros {
@@ -13,17 +15,17 @@ ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns) {
 }
 
 VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size_t vehicle,
-                                 const std::string& world_frame)
-    : description_(scenario.vehicles.at(vehicle)), vehicle_(vehicle) {
-  const std::string base_frame = description_.name + "/base_link";
-  pose_.header.frame_id = world_frame;
+                                 TfFrames frames)
+    : description_(scenario.vehicles.at(vehicle)), vehicle_(vehicle), frames_(std::move(frames)) {
+  const std::string base_frame = frames_.of(description_.name);
+  pose_.header.frame_id = frames_.world;
   twist_.header.frame_id = base_frame;
-  odom_.header.frame_id = world_frame;
+  odom_.header.frame_id = frames_.world;
   odom_.child_frame_id = base_frame;
-  transform_.header.frame_id = world_frame;
+  transform_.header.frame_id = frames_.world;
   transform_.child_frame_id = base_frame;
   engines_.header.frame_id = base_frame;
-  state_.header.frame_id = world_frame;
+  state_.header.frame_id = frames_.world;
 }
 
 void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
@@ -87,7 +89,7 @@ std::vector<geometry_msgs::TransformStamped> VehicleMessages::engineFrames(
     geometry_msgs::TransformStamped frame;
     frame.header.stamp = stamp;
     frame.header.frame_id = transform_.child_frame_id;
-    frame.child_frame_id = description_.name + "/engine_" + kEngineNames[i];
+    frame.child_frame_id = frames_.of(description_.name, std::string("engine_") + kEngineNames[i]);
     frame.transform.translation = toVector3Message(engine.p_HE);
     frame.transform.rotation = toQuaternionMessage(turnFromX(engine.direction));
     frames.push_back(frame);

@@ -7,6 +7,7 @@
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/tolerances.h"
 
@@ -100,6 +101,7 @@ std::string textReport(const Body& A, const Body& B, const ClosestFeatures& c) {
 }  // namespace
 
 std::string closestReport(const ClosestRequest& request) {
+  const FloatingPointEnvironment environment;
   const NonConvexMesh choice = request.hull ? NonConvexMesh::kTakeHull : NonConvexMesh::kRefuse;
   const Pose X_WA = poseFrom(request.pose_a, "pose-a");
   const Pose X_WB = poseFrom(request.pose_b, "pose-b");

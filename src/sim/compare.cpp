@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/time.h"
 
 namespace hovercraft {
@@ -95,13 +96,13 @@ Matched matchedByInterpolation(const std::vector<TrajectorySample>& a,
   return matched;
 }
 
-struct Pose {
+struct RelativePose {
   Vector3 p;
   Quaternion q;
 };
 
 /// The pose of a sample as seen from the first one.
-Pose seenFrom(const TrajectorySample& first, const TrajectorySample& sample) {
+RelativePose seenFrom(const TrajectorySample& first, const TrajectorySample& sample) {
   const Quaternion inverse = conjugate(normalized(first.q_WB));
   return {rotate(inverse, sample.p_WB - first.p_WB), inverse * sample.q_WB};
 }
@@ -110,8 +111,8 @@ std::vector<TrajectoryError> errorsOf(const std::vector<Pair>& pairs) {
   std::vector<TrajectoryError> errors;
   errors.reserve(pairs.size());
   for (const Pair& pair : pairs) {
-    const Pose a = seenFrom(pairs.front().a, pair.a);
-    const Pose b = seenFrom(pairs.front().b, pair.b);
+    const RelativePose a = seenFrom(pairs.front().a, pair.a);
+    const RelativePose b = seenFrom(pairs.front().b, pair.b);
     errors.push_back({pair.a.time_ns, norm(pair.b.p_WB - pair.a.p_WB),
                       angleBetween(pair.a.q_WB, pair.b.q_WB), norm(b.p - a.p),
                       angleBetween(a.q, b.q), pair.b.p_WB - pair.a.p_WB});
@@ -202,6 +203,7 @@ std::size_t missedBy(const Trajectory& other, const UnmatchedSamples& unmatched)
 
 Comparison compareTrajectories(const Trajectory& a, const Trajectory& b,
                                const CompareOptions& options) {
+  const FloatingPointEnvironment environment;
   checkTolerance(options.position_tolerance, "position tolerance", "m");
   checkTolerance(options.attitude_tolerance, "attitude tolerance", "rad");
   const auto samples_a = samplesOf(a, options.from_start);

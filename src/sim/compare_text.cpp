@@ -38,9 +38,9 @@ std::string judgedText(const CompareOptions& options) {
 
 std::string divergenceText(const Divergence& divergence) {
   if (divergence.is_bits) {
-    return fmt::format("  differ first at {}: {} = {:.17g} in A, {:.17g} in B (B - A = {:.3g})\n",
-                       timeText(divergence.time_ns), divergence.quantity, divergence.a,
-                       divergence.b, divergence.b - divergence.a);
+    return fmt::format("  differ first at {}: {} = {} in A, {} in B (B - A = {:.3g})\n",
+                       timeText(divergence.time_ns), divergence.quantity, numberText(divergence.a),
+                       numberText(divergence.b), divergence.b - divergence.a);
   }
   return fmt::format(
       "  beyond the tolerance first at {}: {} error {:.4g}, allowed {:g} (B - A: x "

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstdlib>
 #include <fmt/format.h>
-#include <locale>
-#include <map>
-#include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "hovercraft_sim/sim/number_text.h"
 
@@ -15,20 +15,9 @@ namespace {
 
 constexpr std::size_t kLongestShown = 80;  // bytes of a value in a message
 
-std::string textOf(const YAML::Node& node) {
-  if (!node.IsDefined() || node.IsNull()) return "";
-  if (node.IsScalar()) return node.Scalar();
-  // The style of the node decides: yaml-cpp 0.6 does not heed that of the emitter.
-  YAML::Node in_braces = YAML::Clone(node);
-  in_braces.SetStyle(YAML::EmitterStyle::Flow);
-  YAML::Emitter emitter;
-  emitter << in_braces;
-  return emitter.c_str();
-}
-
 /// What a message shows of a value: not a whole tree.
-std::string shown(const YAML::Node& node) {
-  std::string text = textOf(node);
+std::string shown(const ConfigNode& node) {
+  std::string text = node.beginning(kLongestShown);
   if (text.size() <= kLongestShown) return text;
   const auto continues_character = [](char c) {  // of UTF-8
     return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U;
@@ -44,6 +33,13 @@ std::string onOneLine(std::string text) {
   return text;
 }
 
+/// YAML 1.1 reads 020 as an octal number. @param number a decimal one.
+bool isOctal(const std::string& number) {
+  const std::size_t first = number.find_first_not_of("+-");
+  return first + 1 < number.size() && number[first] == '0' &&
+         number.find_first_of(".eE") == std::string::npos;
+}
+
 }  // namespace
 
 const NumberRule kAnyNumber = {[](double) { return true; }, "must be a finite number"};
@@ -51,21 +47,16 @@ const NumberRule kPositive = {[](double x) { return x > 0.0; }, "must be greater
 const NumberRule kNotNegative = {[](double x) { return x >= 0.0; }, "must be 0 or greater"};
 const NumberRule kNotPositive = {[](double x) { return x <= 0.0; }, "must be 0 or less"};
 
-ConfigReader::ConfigReader(const YAML::Node& node, std::string source, std::string path)
-    : node_(node), source_(std::move(source)), path_(std::move(path)) {
-  if (!node_.IsDefined() || node_.IsNull()) fail("", "must be a map of keys; it is empty");
-  if (!node_.IsMap()) fail("", "must be a map of keys");
+ConfigReader::ConfigReader(ConfigNode node, std::string source, std::string path)
+    : node_(std::move(node)), source_(std::move(source)), path_(std::move(path)) {
+  if (node_.isNull()) fail("", "must be a map of keys; it is empty");
+  if (!node_.isMap()) fail("", "must be a map of keys");
 }
 
 std::string ConfigReader::where(const std::string& key) const {
   const std::string path = pathOf(key);
-  std::string value;
-  if (key.empty()) {
-    value = shown(node_);
-  } else if (node_.IsMap()) {
-    const YAML::Node& tree = node_;
-    value = shown(tree[key]);
-  }
+  const ConfigNode* const found = key.empty() ? &node_ : node_.find(key);
+  const std::string value = found == nullptr ? "" : shown(*found);
   return onOneLine(fmt::format("{}: {}{}{}", source_, path.empty() ? "the scenario" : path,
                                value.empty() ? "" : " = ", value));
 }
@@ -80,27 +71,21 @@ std::string ConfigReader::pathOf(const std::string& key) const {
 }
 
 void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
-  std::map<std::string, int> seen;
-  for (const auto& entry : node_) {
-    const std::string key = textOf(entry.first);
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-      fail(key, fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
-    }
-    if (++seen[key] == 2) fail(key, "the key stands twice");
+  for (const auto& [key, value] : node_.members()) {
+    if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    fail(key, fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
   }
 }
 
 bool ConfigReader::has(const char* key) const {
-  const YAML::Node& tree = node_;
-  return tree[key].IsDefined();
+  return node_.find(key) != nullptr;
 }
 
-YAML::Node ConfigReader::required(const std::string& key) const {
-  const YAML::Node& tree = node_;
-  const YAML::Node found = tree[key];
-  if (!found.IsDefined()) fail(key, "the key is missing");
-  if (found.IsNull()) fail(key, "the value is missing");
-  return found;
+const ConfigNode& ConfigReader::required(const std::string& key) const {
+  const ConfigNode* const found = node_.find(key);
+  if (found == nullptr) fail(key, "the key is missing");
+  if (found->isNull()) fail(key, "the value is missing");
+  return *found;
 }
 
 ConfigReader ConfigReader::map(const std::string& key) const {
@@ -108,31 +93,37 @@ ConfigReader ConfigReader::map(const std::string& key) const {
 }
 
 std::vector<std::pair<std::string, ConfigReader>> ConfigReader::maps() const {
-  std::map<std::string, ConfigReader> sorted;
-  for (const auto& entry : node_) {
-    const std::string key = textOf(entry.first);
-    if (!sorted.emplace(key, ConfigReader(entry.second, source_, pathOf(key))).second) {
-      fail(key, "the name stands twice");
-    }
+  std::vector<std::pair<std::string, ConfigReader>> readers;
+  for (const auto& [key, value] : node_.members()) {
+    readers.emplace_back(key, ConfigReader(value, source_, pathOf(key)));
   }
-  return {sorted.begin(), sorted.end()};
+  std::sort(readers.begin(), readers.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  return readers;
 }
 
 std::vector<ConfigReader> ConfigReader::list(const char* key) const {
-  const YAML::Node sequence = required(key);
-  if (!sequence.IsSequence() || sequence.size() == 0) fail(key, "must be a list, not empty");
+  const ConfigNode& list = required(key);
+  if (list.items().empty()) fail(key, "must be a list, not empty");
   std::vector<ConfigReader> readers;
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    readers.emplace_back(sequence[i], source_, fmt::format("{}[{}]", pathOf(key), i));
+  for (std::size_t i = 0; i < list.items().size(); ++i) {
+    readers.emplace_back(list.items()[i], source_, fmt::format("{}[{}]", pathOf(key), i));
   }
   return readers;
 }
 
-double ConfigReader::numberAt(const YAML::Node& node, const std::string& key,
+double ConfigReader::numberAt(const ConfigNode& node, const std::string& key,
                               const NumberRule& rule) const {
-  const ParsedNumber parsed = node.IsScalar() ? parseNumber(node.Scalar()) : ParsedNumber{};
-  if (parsed.syntax == NumberSyntax::kNoNumber) fail(key, "must be a number");
+  const ParsedNumber parsed = parseNumber(node.text());
+  if (parsed.syntax == NumberSyntax::kNoNumber) {
+    const bool has_digit = node.text().find_first_of("0123456789") != std::string::npos;
+    fail(key, has_digit ? "must be a number in decimal digits" : "must be a number");
+  }
+  if (!node.isPlainText()) fail(key, "must be a number, not a text in quotes");
   if (parsed.syntax == NumberSyntax::kNotFinite) fail(key, "must be finite");
+  if (isOctal(node.text())) {
+    fail(key, "must be a number without leading zeros (YAML 1.1 would read it as octal)");
+  }
   if (!rule.holds(parsed.value)) fail(key, rule.text);
   return parsed.value;
 }
@@ -147,21 +138,25 @@ double ConfigReader::numberOr(double fallback, const char* key, const NumberRule
 
 std::int64_t ConfigReader::wholeNumberOr(std::int64_t fallback, const char* key) const {
   if (!has(key)) return fallback;
-  const YAML::Node node = required(key);
-  std::istringstream stream(node.IsScalar() ? node.Scalar() : "");
-  stream.imbue(std::locale::classic());
-  std::int64_t value = 0;
-  stream >> value;
-  if (stream.fail() || !stream.eof()) fail(key, "must be a whole number of at most 64 bits");
+  const ConfigNode& node = required(key);
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::string digits = node.isPlainText() ? node.text() : "";
+  if (!digits.empty() && (digits.front() == '+' || digits.front() == '-')) digits.erase(0, 1);
+  errno = 0;
+  const std::int64_t value = std::strtoll(node.text().c_str(), nullptr, 10);
+  if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit) || errno == ERANGE) {
+    fail(key, "must be a whole number of at most 64 bits");
+  }
+  if (isOctal(digits)) fail(key, "must be a whole number without leading zeros");
   return value;
 }
 
 Vector3 ConfigReader::vector(const char* key, const NumberRule& rule) const {
-  const YAML::Node sequence = required(key);
-  if (!sequence.IsSequence() || sequence.size() != 3) fail(key, "must be a list of three numbers");
+  const ConfigNode& list = required(key);
+  if (list.items().size() != 3) fail(key, "must be a list of three numbers");
   Vector3 result;
   for (int i = 0; i < 3; ++i) {
-    result[i] = numberAt(sequence[static_cast<std::size_t>(i)], key, rule);
+    result[i] = numberAt(list.items()[static_cast<std::size_t>(i)], key, rule);
   }
   return result;
 }
@@ -173,16 +168,16 @@ Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,
 
 bool ConfigReader::flagOr(bool fallback, const char* key) const {
   if (!has(key)) return fallback;
-  const YAML::Node node = required(key);
-  const std::string value = node.IsScalar() ? node.Scalar() : "";
+  const ConfigNode& node = required(key);
+  const std::string value = node.isPlainText() ? node.text() : "";
   if (value != "true" && value != "false") fail(key, "must be true or false");
   return value == "true";
 }
 
 std::string ConfigReader::text(const char* key) const {
-  const YAML::Node node = required(key);
-  if (!node.IsScalar() || node.Scalar().empty()) fail(key, "must be a text");
-  return node.Scalar();
+  const ConfigNode& node = required(key);
+  if (node.text().empty()) fail(key, "must be a text");
+  return node.text();
 }
 
 std::size_t ConfigReader::choiceOr(std::size_t fallback, const char* key,

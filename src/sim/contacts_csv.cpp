@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "hovercraft_sim/sim/number_text.h"
+
 namespace hovercraft {
 namespace {
 
 std::string columns(const Vector3& v) {
-  return fmt::format("{:.17g},{:.17g},{:.17g}", v.x(), v.y(), v.z());
+  return fmt::format("{},{},{}", numberText(v.x()), numberText(v.y()), numberText(v.z()));
 }
 
 }  // namespace
@@ -23,7 +25,7 @@ ContactsCsvWriter::ContactsCsvWriter(const std::string& path, std::unique_ptr<St
 
 void ContactsCsvWriter::contact(const ContactEvent& event) {
   const std::string row =
-      fmt::format("{:.17g},{},{},{},{},{},{}\n", event.time,
+      fmt::format("{},{},{},{},{},{},{}\n", numberText(event.time),
                   kContactKindNames[static_cast<std::size_t>(event.kind)], event.a, event.b,
                   columns(event.p_WC), columns(event.nhat_AB_W), columns(event.impulse_B_W));
   file_.write(row.data(), row.size());

@@ -8,6 +8,8 @@
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
 namespace {
@@ -61,7 +63,7 @@ BodyReport reportOnMesh(const MassReportRequest& request) {
 
 /// A number for JSON. Adding 0 turns -0 into 0.
 std::string exact(double number) {
-  return fmt::format("{:.17g}", number + 0.0);
+  return numberText(number + 0.0);
 }
 
 std::string jsonOf(const Vector3& v) {
@@ -85,7 +87,7 @@ std::string jsonOf(const BodyReport& body) {
       jsonOfRows(principal.axes.transpose()));
 }
 
-std::string columns(const Vector3& v) {
+std::string alignedColumns(const Vector3& v) {
   return fmt::format("{:>16.9g}{:>16.9g}{:>16.9g}", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
 
@@ -95,7 +97,7 @@ std::string lines(const std::array<std::string, 3>& names, const Matrix3& rows,
   std::string text;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector3 row = rows.row(static_cast<Eigen::Index>(i));
-    text += fmt::format("  {:<18}{}{}\n", names[i], columns(row), remark);
+    text += fmt::format("  {:<18}{}{}\n", names[i], alignedColumns(row), remark);
   }
   return text;
 }
@@ -107,9 +109,10 @@ std::string textOf(const BodyReport& body) {
   text += body.volume
               ? fmt::format("  {:<18}{:>16.9g} m^3\n", "volume", *body.volume)
               : fmt::format("  {:<18}{:>16}, as mass and inertia are given\n", "volume", "unknown");
-  text += fmt::format("  {:<18}{} m\n", "center_of_mass", columns(body.properties.p_HB));
+  text += fmt::format("  {:<18}{} m\n", "center_of_mass", alignedColumns(body.properties.p_HB));
   text += lines({"inertia", "", ""}, body.properties.I_BBo_B, " kg m^2");
-  text += fmt::format("  {:<18}{} kg m^2\n", "principal_moments", columns(principal.moments));
+  text +=
+      fmt::format("  {:<18}{} kg m^2\n", "principal_moments", alignedColumns(principal.moments));
   text += lines({"principal_axes", "", ""}, principal.axes.transpose(), "");
   return text;
 }
@@ -119,6 +122,7 @@ std::string textOf(const BodyReport& body) {
 std::vector<BodyReport> bodiesOf(
     const MassReportRequest& request,
     const std::function<Scenario(const std::string& path)>& load_scenario) {
+  const FloatingPointEnvironment environment;
   if (request.density && request.mass) {
     throw std::invalid_argument("--density and --mass: only one of them can be given");
   }
@@ -140,12 +144,14 @@ std::vector<BodyReport> bodiesOf(
 }
 
 std::string toText(const std::vector<BodyReport>& bodies) {
+  const FloatingPointEnvironment environment;
   std::string text;
   for (const BodyReport& body : bodies) text += (text.empty() ? "" : "\n") + textOf(body);
   return text;
 }
 
 std::string toJson(const std::vector<BodyReport>& bodies) {
+  const FloatingPointEnvironment environment;
   if (bodies.size() == 1) return jsonOf(bodies.front()) + "\n";
   std::string members;
   for (const BodyReport& body : bodies) {

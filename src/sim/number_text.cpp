@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <limits>
 #include <locale.h>
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/time.h"
 
 namespace hovercraft {
@@ -17,10 +19,6 @@ constexpr int kNanosecondDigits = 9;  // a nanosecond is the ninth decimal of a 
 constexpr int kMostDigits = 16;       // of kMaxNanoseconds
 constexpr long kMostShift =
     1000000;  // an exponent beyond it is of 0, or leaves nothing of a number
-
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
-}
 
 /// A decimal number taken apart: ± 0.d1 d2 d3 ... · 10^point
 struct Decimal {
@@ -89,54 +87,162 @@ Decimal takenApart(const std::string& text) {
 
 __extension__ using UInt128 = unsigned __int128;
 
-constexpr int kDigits = 17;                                   // tell every double from the next
-constexpr std::uint64_t kLeast17Digits = 10000000000000000U;  // 10^16
-constexpr std::uint64_t kLeast18Digits = 10 * kLeast17Digits;
+constexpr int kDigits = 17;                                    // tell every double from the next
+constexpr int kSureDigits = 15;                                // come back from every double
+constexpr std::uint64_t kLeast18Digits = 100000000000000000U;  // 10^17
 constexpr int kMantissaBits = 53;
-// Between these, numbers are scaled by 10^2 to 10^27; 5^27 < 2^63: times a mantissa it fits 128
-// bits.
+// Between these, numbers are scaled by 10^2 to 10^27; 5^27 < 2^63: times a mantissa, and times 4,
+// it fits 128 bits.
 constexpr double kLeastFast = 1e-10;
 constexpr double kMostFast = 1e14;
 constexpr int kLeastFixedExponent = -4;  // %g writes smaller numbers with an exponent
+constexpr int kLeastExponent = 17;       // %.17g writes these and greater ones with an exponent
 
-/// The first 17 digits of a positive number, and its decimal exponent: d.ddd… · 10^exponent.
+/// The digits of a positive number, followed by zeros up to 17, and its decimal exponent:
+/// d.ddd… · 10^exponent. 10^17 stands for 10 · 10^exponent.
 struct Digits17 {
   std::uint64_t digits;
   int exponent;
 };
 
-/// m · 5^k · 2^(e + k) rounded to nearest, ties to even: the number m · 2^e times 10^k.
-std::uint64_t scaled(std::uint64_t m, int e, int k) {
+std::uint64_t powerOf10(int exponent) {
+  std::uint64_t power = 1;
+  for (int i = 0; i < exponent; ++i) power *= 10;
+  return power;
+}
+
+/// A positive number times 10^power, exactly, in units of 2^-shift, and what lies half way to the
+/// next numbers: whatever is nearer is read as this number.
+struct Scaled {
+  UInt128 exact;
+  int shift;
+  UInt128 above;
+  UInt128 below;
+  bool takes_ties;  // what lies half way itself is read as the number with the even mantissa
+
+  /// @param digits the number in whole units of 10^-power, from below or above.
+  UInt128 distance(std::uint64_t digits) const {
+    const UInt128 value = static_cast<UInt128>(digits) << shift;
+    return value > exact ? value - exact : exact - value;
+  }
+  bool isReadBack(std::uint64_t digits) const {
+    const UInt128 off = distance(digits);
+    const UInt128 most = (static_cast<UInt128>(digits) << shift) > exact ? above : below;
+    return off < most || (off == most && takes_ties);
+  }
+};
+
+/// m · 2^e times 10^power.
+Scaled scaled(std::uint64_t m, int e, int power) {
   std::uint64_t power_of_5 = 1;
-  for (int i = 0; i < k; ++i) power_of_5 *= 5;
-  const UInt128 exact = static_cast<UInt128>(m) * power_of_5;
-  const int shift = -(e + k);
-  const auto whole = static_cast<std::uint64_t>(exact >> shift);
-  const UInt128 rest = exact & ((static_cast<UInt128>(1) << shift) - 1);
-  const UInt128 half = static_cast<UInt128>(1) << (shift - 1);
-  const bool rounds_up = rest > half || (rest == half && whole % 2 == 1);
-  return whole + (rounds_up ? 1 : 0);
+  for (int i = 0; i < power; ++i) power_of_5 *= 5;
+  // The unit is a quarter of the one that the product needs: halves of halves stay whole.
+  const UInt128 quarter = power_of_5;
+  const bool is_power_of_2 = m == std::uint64_t{1} << (kMantissaBits - 1);
+  return {4 * quarter * m, -(e + power) + 2, 2 * quarter, is_power_of_2 ? quarter : 2 * quarter,
+          m % 2 == 0};
+}
+
+/// The shortest digits that are read back, and of these the nearest. @param most of 17 digits,
+/// rounded down.
+std::uint64_t shortest(const Scaled& number, std::uint64_t most) {
+  for (std::uint64_t unit = powerOf10(kDigits - kSureDigits); unit > 1; unit /= 10) {
+    const std::uint64_t down = most / unit * unit;
+    const std::uint64_t up = down + unit;
+    const UInt128 to_up = number.distance(up);
+    const UInt128 to_down = number.distance(down);
+    const bool is_down_even = down / unit % 2 == 0;
+    const bool is_up_nearer = to_up < to_down || (to_up == to_down && !is_down_even);
+    const std::uint64_t nearer = is_up_nearer ? up : down;
+    if (number.isReadBack(nearer)) return nearer;
+    const std::uint64_t farther = is_up_nearer ? down : up;
+    if (number.isReadBack(farther)) return farther;
+  }
+  const UInt128 off = number.distance(most);
+  const UInt128 off_above = number.distance(most + 1);
+  return off < off_above || (off == off_above && most % 2 == 0) ? most : most + 1;
 }
 
 /// @param number in [kLeastFast, kMostFast).
-Digits17 digitsOf(double number) {
+Digits17 shortestDigits(double number) {
   int exponent = 0;
   const double mantissa = std::frexp(number, &exponent);  // in [1/2, 1)
   const auto m = static_cast<std::uint64_t>(std::ldexp(mantissa, kMantissaBits));
   // log10(2) = 0.30103 makes of the binary exponent a decimal one that is right or one too small.
   int power = kDigits - 1 - static_cast<int>(std::floor((exponent - 1) * 0.30103));
-  std::uint64_t digits = scaled(m, exponent - kMantissaBits, power);
-  if (digits >= kLeast18Digits) {
+  Scaled value = scaled(m, exponent - kMantissaBits, power);
+  if (static_cast<std::uint64_t>(value.exact >> value.shift) >= kLeast18Digits) {
     --power;
-    digits = scaled(m, exponent - kMantissaBits, power);
+    value = scaled(m, exponent - kMantissaBits, power);
   }
-  return {digits, kDigits - 1 - power};
+  const auto most = static_cast<std::uint64_t>(value.exact >> value.shift);
+  return {shortest(value, most), kDigits - 1 - power};
+}
+
+double classicStrtod(const char* text) {
+  static const locale_t classic_locale = newlocale(LC_ALL_MASK, "C", nullptr);
+  return strtod_l(text, nullptr, classic_locale);
+}
+
+bool isReadBack(double number, const Digits17& parts) {
+  const std::string text = fmt::format("{}e{}", parts.digits, parts.exponent - (kDigits - 1));
+  return classicStrtod(text.c_str()) == number;
+}
+
+/// A positive number rounded to so many digits.
+Digits17 rounded(double number, int digits) {
+  const std::string text = fmt::format("{:.{}e}", number, digits - 1);  // d.ddde±dd
+  const std::size_t exponent = text.find('e');
+  Digits17 parts = {0, std::atoi(text.c_str() + exponent + 1)};
+  for (const char c : text.substr(0, exponent)) {
+    if (isDigit(c)) parts.digits = 10 * parts.digits + static_cast<std::uint64_t>(c - '0');
+  }
+  parts.digits *= powerOf10(kDigits - digits);
+  return parts;
+}
+
+/// The same by trial, for any positive number.
+Digits17 shortestDigitsByTrial(double number) {
+  // Denormal numbers have fewer digits than others.
+  const bool is_normal = number >= std::numeric_limits<double>::min();
+  int exponent = 0;
+  const bool is_power_of_2 = std::frexp(number, &exponent) == 0.5;
+  for (int digits = is_normal ? kSureDigits : 1; digits < kDigits; ++digits) {
+    Digits17 candidate = rounded(number, digits);
+    if (isReadBack(number, candidate)) return candidate;
+    // More is read as a power of two from above than from below.
+    candidate.digits += powerOf10(kDigits - digits);
+    if (is_power_of_2 && isReadBack(number, candidate)) return candidate;
+  }
+  return rounded(number, kDigits);
 }
 
 void appendFraction(fmt::memory_buffer& buffer, const char* begin, const char* end) {
   if (begin >= end) return;
   buffer.push_back('.');
   buffer.append(begin, end);
+}
+
+void appendDigits(fmt::memory_buffer& buffer, Digits17 parts) {
+  if (parts.digits == kLeast18Digits) parts = {kLeast18Digits / 10, parts.exponent + 1};
+  const fmt::format_int text(parts.digits);
+  const char* begin = text.data();
+  const char* end = begin + kDigits;
+  while (end[-1] == '0') --end;
+  if (parts.exponent >= 0 && parts.exponent < kLeastExponent) {
+    const char* point = begin + parts.exponent + 1;
+    buffer.append(begin, point);
+    appendFraction(buffer, point, end);
+  } else if (parts.exponent < 0 && parts.exponent >= kLeastFixedExponent) {
+    const std::string zeros = "0.0000";
+    buffer.append(zeros.data(), zeros.data() + 1 - parts.exponent);
+    buffer.append(begin, end);
+  } else {
+    buffer.push_back(*begin);
+    appendFraction(buffer, begin + 1, end);
+    fmt::format_to(std::back_inserter(buffer), "e{}{:02}", parts.exponent < 0 ? '-' : '+',
+                   std::abs(parts.exponent));
+  }
 }
 
 bool isNotFiniteWord(std::string word) {
@@ -150,11 +256,11 @@ bool isNotFiniteWord(std::string word) {
 }  // namespace
 
 ParsedNumber parseNumber(const std::string& text) {
+  const FloatingPointEnvironment environment;
   if (!DecimalScanner(text).scan()) {
     return {isNotFiniteWord(text) ? NumberSyntax::kNotFinite : NumberSyntax::kNoNumber, 0.0};
   }
-  static const locale_t classic_locale = newlocale(LC_ALL_MASK, "C", nullptr);
-  const double value = strtod_l(text.c_str(), nullptr, classic_locale);
+  const double value = classicStrtod(text.c_str());
   if (!std::isfinite(value)) return {NumberSyntax::kNotFinite, 0.0};
   return {NumberSyntax::kNumber, value};
 }
@@ -175,34 +281,26 @@ std::int64_t parseNanoseconds(const std::string& text) {
 }
 
 void appendNumber(fmt::memory_buffer& buffer, double number) {
+  const FloatingPointEnvironment environment;
+  if (!std::isfinite(number)) {
+    fmt::format_to(std::back_inserter(buffer), "{}", number);
+    return;
+  }
   if (std::signbit(number)) buffer.push_back('-');
   const double magnitude = std::abs(number);
   if (magnitude == 0.0) {
     buffer.push_back('0');
-    return;
-  }
-  if (!(magnitude >= kLeastFast && magnitude < kMostFast)) {
-    fmt::format_to(std::back_inserter(buffer), "{:.17g}", magnitude);
-    return;
-  }
-  const Digits17 parts = digitsOf(magnitude);
-  const fmt::format_int text(parts.digits);
-  const char* begin = text.data();
-  const char* end = begin + kDigits;
-  while (end[-1] == '0') --end;
-  if (parts.exponent >= 0) {
-    const char* point = begin + parts.exponent + 1;
-    buffer.append(begin, point);
-    appendFraction(buffer, point, end);
-  } else if (parts.exponent >= kLeastFixedExponent) {
-    const std::string zeros = "0.0000";
-    buffer.append(zeros.data(), zeros.data() + 1 - parts.exponent);
-    buffer.append(begin, end);
+  } else if (magnitude >= kLeastFast && magnitude < kMostFast) {
+    appendDigits(buffer, shortestDigits(magnitude));
   } else {
-    buffer.push_back(*begin);
-    appendFraction(buffer, begin + 1, end);
-    fmt::format_to(std::back_inserter(buffer), "e-{:02}", -parts.exponent);
+    appendDigits(buffer, shortestDigitsByTrial(magnitude));
   }
+}
+
+std::string numberText(double number) {
+  fmt::memory_buffer buffer;
+  appendNumber(buffer, number);
+  return fmt::to_string(buffer);
 }
 
 void appendSeconds(fmt::memory_buffer& buffer, std::int64_t time_ns) {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 
+#include "hovercraft_sim/sim/number_text.h"
+
 namespace hovercraft {
 namespace {
 
 bool isLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-bool isDigit(char c) {
-  return c >= '0' && c <= '9';
 }
 
 }  // namespace

@@ -1,13 +1,16 @@
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <stdexcept>
 #include <utility>
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
@@ -58,7 +61,9 @@ std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
   }
   if (std::filesystem::path(file).is_absolute()) return file;
   if (source.directory.empty()) {
-    reader.fail("file", "on the parameter server must be a package:// URL or an absolute path");
+    reader.fail("file",
+                "is relative to no folder: must be a package:// URL or an absolute path (or, for a "
+                "node, give its parameter scenario_dir)");
   }
   return (std::filesystem::path(source.directory) / file).lexically_normal().string();
 }
@@ -250,7 +255,8 @@ VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader
 
 }  // namespace
 
-Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
+Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
+  const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
   reader.allowOnly({"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed",
                     "vehicles", "world"});
@@ -273,32 +279,31 @@ Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source) {
   return scenario;
 }
 
-YAML::Node treeOf(const std::string& text, const std::string& source) {
-  try {
-    return YAML::Load(text);
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(fmt::format("{}: not YAML: {}", source, error.what()));
-  }
+Scenario parseScenario(const std::string& text, const ScenarioSource& source,
+                       const OverrideList& overrides) {
+  ScenarioSource changed = source;
+  changed.name = sourceWith(source.name, overrides);
+  return parseScenario(withOverrides(treeOf(text, source.name), overrides), changed);
 }
 
 Scenario loadScenario(const std::string& path,
-                      std::function<std::string(const std::string&)> package_folder) {
+                      std::function<std::string(const std::string&)> package_folder,
+                      const OverrideList& overrides) {
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable)) {
     throw std::invalid_argument(path + ": there is no such file");
   }
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAllFromFile(path);
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(fmt::format("{}: not YAML: {}", path, error.what()));
+  std::ifstream stream(path, std::ios::binary);
+  std::string text;
+  std::array<char, 65536> chunk{};
+  // treeOf() refuses what is longer.
+  while (stream && text.size() <= kLongestYamlText) {
+    stream.read(chunk.data(), chunk.size());
+    text.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
   }
-  if (documents.size() != 1) {
-    throw std::invalid_argument(
-        fmt::format("{}: must be one YAML document; it holds {}", path, documents.size()));
-  }
+  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
-  return parseScenario(documents.front(), {path, folder.string(), std::move(package_folder)});
+  return parseScenario(text, {path, folder.string(), std::move(package_folder)}, overrides);
 }
 
 }  // namespace hovercraft

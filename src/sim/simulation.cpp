@@ -8,6 +8,7 @@
 
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/state_hash.h"
 #include "hovercraft_sim/sim/world_builder.h"
@@ -57,8 +58,9 @@ bool settle(RigidBodyState<Orientation>& body) {
 
 }  // namespace
 
-Simulation::Simulation(Scenario scenario)
-    : scenario_(std::move(scenario)), h_(scenario_.stepSize()) {
+Simulation::Simulation(Scenario scenario) : scenario_(std::move(scenario)) {
+  const FloatingPointEnvironment environment;
+  h_ = scenario_.stepSize();
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     models_.push_back(modelOf(scenario_, vehicle));
     engine_dynamics_.emplace_back(vehicle.engines, scenario_.step_ns);
@@ -72,6 +74,7 @@ Simulation::Simulation(Scenario scenario)
 }
 
 void Simulation::reset(std::int64_t seed) {
+  const FloatingPointEnvironment environment;
   state_ = SimulationState();
   state_.seed = seed;
   for (std::size_t i = 0; i < models_.size(); ++i) {
@@ -96,6 +99,7 @@ void Simulation::restore(const SimulationState& state) {
 
 void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                            const Twist& twist) {
+  const FloatingPointEnvironment environment;
   state_.vehicles.at(vehicle).body = placed(p_WB, q_WB, twist, models_[vehicle].mobility);
   if (!world_) return;
   const auto index = static_cast<std::int32_t>(vehicle);
@@ -118,6 +122,7 @@ BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const 
 
 std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vector3& p_WB,
                                                   const Quaternion& q_WB) const {
+  const FloatingPointEnvironment environment;
   if (!world_) return std::nullopt;
   std::vector<BodyState> states = worldStates();
   states.at(vehicle) = placed(p_WB, q_WB, Twist(), models_[vehicle].mobility);
@@ -196,7 +201,8 @@ bool Simulation::stepVehicle(std::size_t vehicle) {
   const DrivenHovercraft system = {models_[vehicle], thrusts, is_pushed ? &load : nullptr};
   const bool is_sound = std::visit(
       [&](auto& body) {
-        auto next = integrationStep(scenario_.integrator, body, system, h_);
+        auto next =
+            integrationStep<decltype(body.orientation)>(scenario_.integrator, body, system, h_);
         if (!settle(next)) return false;
         body = next;
         return true;
@@ -222,13 +228,19 @@ void Simulation::failAsDiverged(const char* kind, const std::string& name) const
 void Simulation::step() {
   applyDueCommands();
   endWrenches();
-  if (world_) {
-    stepWorld();
-  } else {
-    stepVehicles();
+  {
+    // Read here, as on_applied may have changed it; the callbacks find that of the caller.
+    const FloatingPointEnvironment environment;
+    if (world_) {
+      stepWorld();
+    } else {
+      stepVehicles();
+    }
   }
   ++state_.tick;
-  if (world_ && on_contact) report();
+  if (!world_ || !on_contact) return;
+  sortRecords();
+  for (const ContactRecord& record : records_) on_contact(eventOf(record));
 }
 
 void Simulation::stepWorld() {
@@ -259,8 +271,8 @@ void Simulation::stepWorld() {
   state_.contacts.swap(contacts_);
 }
 
-/// Hands out what happened in the step that just ended.
-void Simulation::report() {
+void Simulation::sortRecords() {
+  const FloatingPointEnvironment environment;
   // Few and nearly sorted; std::stable_sort would take memory.
   const auto is_earlier = [](const ContactRecord& x, const ContactRecord& y) {
     return x.time < y.time;
@@ -268,21 +280,23 @@ void Simulation::report() {
   for (auto next = records_.begin(); next != records_.end(); ++next) {
     std::rotate(std::upper_bound(records_.begin(), next, *next, is_earlier), next, next + 1);
   }
+}
+
+/// What on_contact is told of a record of the step that just ended.
+ContactEvent Simulation::eventOf(const ContactRecord& record) const {
+  const FloatingPointEnvironment environment;
   const std::int64_t begin_ns = (state_.tick - 1) * scenario_.step_ns;
-  for (const ContactRecord& record : records_) {
-    ContactEvent event;
-    event.kind = record.kind;
-    event.time_ns =
-        begin_ns + std::llround(record.time * static_cast<double>(kNanosecondsPerSecond));
-    event.time = toSeconds(begin_ns) + record.time;
-    event.tick = state_.tick;
-    event.a = world_->nameOf(record.a);
-    event.b = world_->nameOf(record.b);
-    event.p_WC = record.p_WC;
-    event.nhat_AB_W = record.nhat_AB_W;
-    event.impulse_B_W = record.impulse_B_W;
-    on_contact(event);
-  }
+  ContactEvent event;
+  event.kind = record.kind;
+  event.time_ns = begin_ns + std::llround(record.time * static_cast<double>(kNanosecondsPerSecond));
+  event.time = toSeconds(begin_ns) + record.time;
+  event.tick = state_.tick;
+  event.a = world_->nameOf(record.a);
+  event.b = world_->nameOf(record.b);
+  event.p_WC = record.p_WC;
+  event.nhat_AB_W = record.nhat_AB_W;
+  event.impulse_B_W = record.impulse_B_W;
+  return event;
 }
 
 namespace {
@@ -304,20 +318,24 @@ Motion motionOf(const HovercraftModel& model, const BodyState& state) {
 }  // namespace
 
 Motion Simulation::motion(std::size_t vehicle) const {
+  const FloatingPointEnvironment environment;
   return motionOf(models_[vehicle], state_.vehicles[vehicle].body);
 }
 
 Motion Simulation::motionAfterSetting(std::size_t vehicle, const Vector3& p_WB,
                                       const Quaternion& q_WB, const Twist& twist) const {
+  const FloatingPointEnvironment environment;
   const HovercraftModel& model = models_.at(vehicle);
   return motionOf(model, placed(p_WB, q_WB, twist, model.mobility));
 }
 
 Motion Simulation::bodyMotion(std::size_t body) const {
+  const FloatingPointEnvironment environment;
   return motionOf(world_->bodies()[models_.size() + body].model, state_.bodies[body]);
 }
 
 EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {
+  const FloatingPointEnvironment environment;
   const EngineState& state = state_.vehicles[vehicle].engines[static_cast<std::size_t>(engine)];
   const EngineDynamics& dynamics = engine_dynamics_[vehicle];
   const std::int64_t age_ns = dynamics.commandAge(state, state_.tick);

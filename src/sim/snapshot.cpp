@@ -10,7 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 namespace hovercraft {
@@ -18,17 +20,13 @@ namespace {
 
 const std::vector<std::string> kFrameNames = {"world", "body"};
 
-std::string text(const Vector3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
-}
-
 /// The orientation as named vectors: a quaternion as scalar and vector, a matrix as its columns.
 std::string orientationText(const Quaternion& q) {
-  return fmt::format("q_s: {:.17g}, q_v: {}", q.s, text(q.v));
+  return fmt::format("q_s: {}, q_v: {}", yamlNumber(q.s), yamlVector(q.v));
 }
 std::string orientationText(const Matrix3& R) {
-  return fmt::format("x_axis: {}, y_axis: {}, z_axis: {}", text(R.col(0)), text(R.col(1)),
-                     text(R.col(2)));
+  return fmt::format("x_axis: {}, y_axis: {}, z_axis: {}", yamlVector(R.col(0)),
+                     yamlVector(R.col(1)), yamlVector(R.col(2)));
 }
 
 Quaternion parseQuaternion(const ConfigReader& reader) {
@@ -52,33 +50,35 @@ std::string bodyText(const BodyState& state) {
   return std::visit(
       [](const auto& body) {
         return fmt::format("{{position: {}, {}, momentum: {}, angular_momentum: {}}}\n",
-                           text(body.p_WB), orientationText(body.orientation),
-                           text(body.momentum_W), text(body.angular_momentum_W));
+                           yamlVector(body.p_WB), orientationText(body.orientation),
+                           yamlVector(body.momentum_W), yamlVector(body.angular_momentum_W));
       },
       state);
 }
 
 std::string vehicleText(const std::string& name, const VehicleState& state) {
-  std::string yaml = fmt::format("  {}:\n    body: {}", name, bodyText(state.body));
+  std::string yaml = fmt::format("  {}:\n    body: {}", yamlText(name), bodyText(state.body));
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     const EngineState& engine = state.engines[i];
-    yaml += fmt::format("    {}: {{commanded: {:.17g}, thrust: {:.17g}, command_tick: {}}}\n",
-                        kEngineNames[i], engine.commanded, engine.thrust, engine.command_tick);
+    yaml +=
+        fmt::format("    {}: {{commanded: {}, thrust: {}, command_tick: {}}}\n", kEngineNames[i],
+                    yamlNumber(engine.commanded), yamlNumber(engine.thrust), engine.command_tick);
   }
   return yaml;
 }
 
 std::string wrenchText(const Scenario& scenario, const ExternalWrench& external) {
   return fmt::format("  - {{vehicle: {}, frame: {}, force: {}, torque: {}, end_tick: {}}}\n",
-                     scenario.vehicles[external.vehicle].name,
+                     yamlText(scenario.vehicles[external.vehicle].name),
                      kFrameNames[static_cast<std::size_t>(external.frame)],
-                     text(external.wrench.force), text(external.wrench.torque), external.end_tick);
+                     yamlVector(external.wrench.force), yamlVector(external.wrench.torque),
+                     external.end_tick);
 }
 
 std::string commandText(const Scenario& scenario, const Command& command) {
   return fmt::format("  - {{tick: {}, vehicle: {}, engines: {}, thrusts: {}}}\n", command.tick,
-                     scenario.vehicles[command.vehicle].name, static_cast<int>(command.engines),
-                     text(command.thrusts));
+                     yamlText(scenario.vehicles[command.vehicle].name),
+                     static_cast<int>(command.engines), yamlVector(command.thrusts));
 }
 
 /// A contact by the indices of its bodies and features: these are of the same scenario.
@@ -92,8 +92,8 @@ std::string contactText(const ContactMemory& contact) {
   if (contact.count > 0) yaml += ", points: [";
   for (int i = 0; i < contact.count; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    yaml += fmt::format("{}{{p: {}, force: {}}}", i > 0 ? ", " : "", text(contact.p_AC[k]),
-                        text(contact.force_B_W[k]));
+    yaml += fmt::format("{}{{p: {}, force: {}}}", i > 0 ? ", " : "", yamlVector(contact.p_AC[k]),
+                        yamlVector(contact.force_B_W[k]));
   }
   return yaml + (contact.count > 0 ? "]}\n" : "}\n");
 }
@@ -183,9 +183,17 @@ ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario)
   return external;
 }
 
+/// Another version may have written the text with other digits or quotes.
+bool isTextOf(const Scenario& scenario, const std::string& text, const std::string& source) {
+  const std::string expected = toYaml(scenario);
+  return text == expected ||
+         toYaml(parseScenario(text, {source + ": scenario", "", {}})) == expected;
+}
+
 }  // namespace
 
 std::string toSnapshot(const Simulation& simulation) {
+  const FloatingPointEnvironment environment;
   const Scenario& scenario = simulation.scenario();
   const SimulationState& state = simulation.state();
   std::string yaml = fmt::format("tick: {}\nseed: {}\nhash: '{:016x}'\nvehicles:\n", state.tick,
@@ -197,7 +205,8 @@ std::string toSnapshot(const Simulation& simulation) {
   for (const ExternalWrench& external : state.wrenches) yaml += wrenchText(scenario, external);
   if (!state.bodies.empty()) yaml += "bodies:\n";
   for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-    yaml += fmt::format("  {}: {}", scenario.world->bodies[i].name, bodyText(state.bodies[i]));
+    yaml += fmt::format("  {}: {}", yamlText(scenario.world->bodies[i].name),
+                        bodyText(state.bodies[i]));
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
   for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
@@ -212,11 +221,12 @@ std::string toSnapshot(const Simulation& simulation) {
 
 SimulationState parseSnapshot(const std::string& text, const std::string& source,
                               const Scenario& scenario) {
-  const YAML::Node tree = treeOf(text, source);
+  const FloatingPointEnvironment environment;
+  const ConfigNode tree = treeOf(text, source);
   const ConfigReader reader(tree, source);
   reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",
                     "commands", "scenario"});
-  if (reader.text("scenario") != toYaml(scenario)) {
+  if (!isTextOf(scenario, reader.text("scenario"), source)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }
   SimulationState state;

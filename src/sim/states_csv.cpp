@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/csv_reader.h"
 #include "hovercraft_sim/sim/number_text.h"
 
@@ -94,6 +95,7 @@ Trajectory& trajectoryOf(std::vector<Trajectory>& trajectories, const std::strin
 }  // namespace
 
 std::vector<Trajectory> readStatesCsv(const std::string& path) {
+  const FloatingPointEnvironment environment;
   CsvReader reader(path);
   reader.requireHeader(
       {fmt::format("time,{}", kMotionColumns), fmt::format("time,vehicle,{}", kMotionColumns)});

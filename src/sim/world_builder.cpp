@@ -6,6 +6,7 @@
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 #include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 
 namespace hovercraft {
@@ -73,10 +74,12 @@ std::vector<Vector3> placedPoints(std::vector<Vector3> points, const Vector3& p,
 }  // namespace
 
 std::vector<Vector3> hullPoints(const HullScenario& hull) {
+  const FloatingPointEnvironment environment;
   return placedPoints(std::visit(HullCorners(), hull.shape), hull.p_HS, hull.rpy);
 }
 
 std::vector<Vector3> partPoints(const std::vector<PartScenario>& parts) {
+  const FloatingPointEnvironment environment;
   std::vector<Vector3> all;
   for (const PartScenario& part : parts) {
     const auto points = placedPoints(std::visit(HullCorners(), part.shape), part.p_HP, part.rpy);
@@ -86,6 +89,7 @@ std::vector<Vector3> partPoints(const std::vector<PartScenario>& parts) {
 }
 
 ConvexPolyhedron hullOf(const VehicleScenario& vehicle) {
+  const FloatingPointEnvironment environment;
   std::vector<Vector3> points =
       vehicle.hull ? hullPoints(*vehicle.hull) : partPoints(vehicle.parts);
   for (Vector3& p : points) p -= vehicle.mass_properties.p_HB;
@@ -93,6 +97,7 @@ ConvexPolyhedron hullOf(const VehicleScenario& vehicle) {
 }
 
 HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle) {
+  const FloatingPointEnvironment environment;
   const MassProperties& body = vehicle.mass_properties;
   const Mobility mobility = scenario.model == BodyModel::kPlanar
                                 ? Mobility::planar(body.mass, body.I_BBo_B)
@@ -103,6 +108,7 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
 
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
                        const Mobility& mobility) {
+  const FloatingPointEnvironment environment;
   const Twist twist = {vehicle.initial_v_WB, vehicle.initial_w_WB};
   if (scenario.orientation == OrientationKind::kQuaternion) {
     return mobility.stateOfMotion(vehicle.initial_p_WB, quaternionFromRpy(vehicle.initial_rpy),
@@ -112,6 +118,7 @@ BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
 }
 
 World worldOf(const Scenario& scenario) {
+  const FloatingPointEnvironment environment;
   const WorldScenario& world = *scenario.world;
   WorldRules rules;
   rules.integrator = scenario.integrator;

@@ -7,6 +7,7 @@
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/geometry/triangle_mesh.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -189,25 +190,21 @@ void checkStart(const ConfigReader& reader, const Scenario& scenario) {
   }
 }
 
-std::string vectorText(const Vector3& v) {
-  return fmt::format("[{:.17g}, {:.17g}, {:.17g}]", v.x(), v.y(), v.z());
-}
-
 struct HullWriter {
   std::string operator()(const BoxShape& box) const {
-    return fmt::format("box: {{size: {}}}", vectorText(box.size));
+    return fmt::format("box: {{size: {}}}", yamlVector(box.size));
   }
   std::string operator()(const SphereShape& sphere) const {
-    return fmt::format("sphere: {{radius: {:.17g}}}", sphere.radius);
+    return fmt::format("sphere: {{radius: {}}}", yamlNumber(sphere.radius));
   }
   std::string operator()(const CylinderShape& cylinder) const {
-    return fmt::format("cylinder: {{radius: {:.17g}, length: {:.17g}}}", cylinder.radius,
-                       cylinder.length);
+    return fmt::format("cylinder: {{radius: {}, length: {}}}", yamlNumber(cylinder.radius),
+                       yamlNumber(cylinder.length));
   }
   std::string operator()(const PointsShape& cloud) const {
     std::string text = "points: [";
     for (const Vector3& p : cloud.points) {
-      text += fmt::format("{}{{p: {}}}", text.back() == '[' ? "" : ", ", vectorText(p));
+      text += fmt::format("{}{{p: {}}}", text.back() == '[' ? "" : ", ", yamlVector(p));
     }
     return text + "]";
   }
@@ -215,12 +212,12 @@ struct HullWriter {
 
 std::string hullText(const HullScenario& hull) {
   return fmt::format("{}, position: {}, rpy: {}", std::visit(HullWriter(), hull.shape),
-                     vectorText(hull.p_HS), vectorText(hull.rpy));
+                     yamlVector(hull.p_HS), yamlVector(hull.rpy));
 }
 
 std::string surfaceText(const ContactMaterial& surface) {
-  return fmt::format("restitution: {:.17g}, friction: {:.17g}, stick: {}", surface.restitution,
-                     surface.friction, surface.stick ? "true" : "false");
+  return fmt::format("restitution: {}, friction: {}, stick: {}", yamlNumber(surface.restitution),
+                     yamlNumber(surface.friction), surface.stick ? "true" : "false");
 }
 
 }  // namespace
@@ -283,7 +280,7 @@ void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario&
 std::string surfaceYaml(const VehicleScenario& vehicle, const Scenario& scenario) {
   if (!scenario.world) return "";
   std::string yaml =
-      fmt::format("    material: {}\n", scenario.world->materials[vehicle.material].name);
+      fmt::format("    material: {}\n", yamlText(scenario.world->materials[vehicle.material].name));
   if (vehicle.hull) yaml += fmt::format("    hull: {{{}}}\n", hullText(*vehicle.hull));
   return yaml;
 }
@@ -291,21 +288,21 @@ std::string surfaceYaml(const VehicleScenario& vehicle, const Scenario& scenario
 std::string worldYaml(const Scenario& scenario) {
   if (!scenario.world) return "";
   const WorldScenario& world = *scenario.world;
-  std::string yaml =
-      fmt::format("world:\n  tolerance: {:.17g}\n  rest_speed: {:.17g}\n  materials:\n",
-                  world.tolerance, world.rest_speed);
+  std::string yaml = fmt::format("world:\n  tolerance: {}\n  rest_speed: {}\n  materials:\n",
+                                 yamlNumber(world.tolerance), yamlNumber(world.rest_speed));
   for (const MaterialScenario& material : world.materials) {
-    yaml += fmt::format("    {}: {{{}}}\n", material.name, surfaceText(material.surface));
+    yaml += fmt::format("    {}: {{{}}}\n", yamlText(material.name), surfaceText(material.surface));
   }
   if (!world.material_pairs.empty()) yaml += "  material_pairs:\n";
   for (const MaterialPairScenario& pair : world.material_pairs) {
-    yaml += fmt::format("    - {{first: {}, second: {}, {}}}\n", world.materials[pair.first].name,
-                        world.materials[pair.second].name, surfaceText(pair.law));
+    yaml += fmt::format("    - {{first: {}, second: {}, {}}}\n",
+                        yamlText(world.materials[pair.first].name),
+                        yamlText(world.materials[pair.second].name), surfaceText(pair.law));
   }
   if (!world.obstacles.empty()) yaml += "  obstacles:\n";
   for (const ObstacleScenario& obstacle : world.obstacles) {
-    yaml += fmt::format("    {}: {{{}, material: {}}}\n", obstacle.name, hullText(obstacle.hull),
-                        world.materials[obstacle.material].name);
+    yaml += fmt::format("    {}: {{{}, material: {}}}\n", yamlText(obstacle.name),
+                        hullText(obstacle.hull), yamlText(world.materials[obstacle.material].name));
   }
   return yaml;
 }

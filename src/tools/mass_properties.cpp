@@ -28,7 +28,7 @@ po::options_description options() {
       "of a mesh, kg/m^3; 1 if neither this nor the mass is given");
   add("mass,m", po::value<double>(), "of a mesh, kg");
   add("vehicle", po::value<std::string>()->default_value("", "all"), "of a scenario");
-  add("json,j", po::bool_switch(), "one JSON object instead of text, 17 digits");
+  add("json,j", po::bool_switch(), "one JSON object instead of text, numbers to the last bit");
   add("help,h", "this text");
   return options;
 }
@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
     }
     po::notify(values);
     const hovercraft::MassReportRequest request = requestFrom(values);
-    const auto bodies = hovercraft::bodiesOf(request, hovercraft_ros::loadScenarioFile);
+    const auto bodies = hovercraft::bodiesOf(
+        request, [](const std::string& path) { return hovercraft_ros::loadScenarioFile(path); });
     std::cout << (request.json ? toJson(bodies) : toText(bodies));
   } catch (const std::exception& error) {
     std::cerr << "mass_properties: " << error.what() << '\n';

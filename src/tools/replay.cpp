@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
     add("bag", po::value(&request.bag)->required(), "recording of the node, or bag of simulate");
     add("output,o", po::value(&request.output), "bag to write the run into, anew");
     add("set,s", po::value(&request.sets)->composing(),
-        "KEY.PATH=VALUE: change the scenario first, such as vehicles.hovercraft.mass=6");
+        "KEY.PATH=VALUE: change the scenario first, such as vehicles.hovercraft.mass=6; several "
+        "with ; between them");
     add("help,h", "this text");
     po::positional_options_description positions;
     positions.add("bag", 1);

@@ -18,6 +18,10 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
       "simulated seconds; default: to 1 s after the last command");
   add("output,o", po::value(&request.output)->required(),
       "states (.csv or .bag); - is CSV on the standard output");
+  add("set,s", po::value(&request.sets)->composing(),
+      "KEY.PATH=VALUE: change the scenario first, such as vehicles.hovercraft.mass=6; several with "
+      "; "
+      "between them");
   add("contacts", po::value(&request.contacts), "contacts (.csv): bounces, sticks, rests");
   add("every,e", po::value(&request.every)->default_value(request.every),
       "put out every N-th tick");
@@ -38,7 +42,8 @@ int main(int argc, char** argv) {
     po::store(po::command_line_parser(argc, argv).options(options).positional(positions).run(),
               values);
     if (values.count("help") > 0) {
-      std::cout << "simulate SCENARIO.yaml [--commands FILE] [--duration S] --output FILE\n"
+      std::cout << "simulate SCENARIO.yaml [--commands FILE] [--duration S] [--set KEY.PATH=VALUE "
+                   "...] --output FILE\n"
                    "Runs a scenario as fast as it goes and writes the states of its vehicles.\n\n"
                 << options;
       return 0;

@@ -5,14 +5,11 @@
 
 #include "hovercraft_sim/collision/time_of_impact.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/world/world.h"
 
 namespace hovercraft {
 namespace {
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 /// The thrusts at a share x of the step: the parabola through its start, middle and end, which is
 /// exact there and off by the cube of the step over the lag in between.
@@ -173,7 +170,8 @@ BodyState Island::moved(const IslandMember& member, double from, double to,
                                    drive.is_pushed || pressed ? &load : nullptr};
   return std::visit(
       [&](const auto& body) -> BodyState {
-        return integrationStep(world_.rules_.integrator, body, system, to - from);
+        return integrationStep<decltype(body.orientation)>(world_.rules_.integrator, body, system,
+                                                           to - from);
       },
       member.state);
 }

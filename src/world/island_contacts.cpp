@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/world/island.h"
 #include "hovercraft_sim/world/world.h"
 
@@ -10,10 +11,6 @@
 
 namespace hovercraft {
 namespace {
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
 
 void applyImpulse(BodyState& state, const Mobility& mobility, const Vector3& impulse,
                   const Vector3& p_WC) {

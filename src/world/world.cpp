@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -41,6 +42,7 @@ double gapOf(const AxisAlignedBox& a, const AxisAlignedBox& b) {
 
 World::World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
     : rules_(std::move(rules)), bodies_(std::move(bodies)), obstacles_(std::move(obstacles)) {
+  const FloatingPointEnvironment environment;
   demand(rules_.step > 0.0 && rules_.tolerance > 0.0, "a world needs a step and a tolerance");
   demand(rules_.pairs.size() == rules_.material_count * rules_.material_count,
          "a world needs a law for each pair of materials");
@@ -246,6 +248,7 @@ bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<B
 
 void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
                  std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records) {
+  const FloatingPointEnvironment environment;
   ends_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyDrive& drive = drives[i];
@@ -253,7 +256,8 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
                                      drive.is_pushed ? &drive.load : nullptr};
     ends_[i] = std::visit(
         [&](const auto& body) -> BodyState {
-          return integrationStep(rules_.integrator, body, system, rules_.step);
+          return integrationStep<decltype(body.orientation)>(rules_.integrator, body, system,
+                                                             rules_.step);
         },
         states[i]);
     extents_[i].travel = kTravelReserve * travelOf(i, states[i], ends_[i], rules_.step);
@@ -289,6 +293,7 @@ std::vector<World::Pair> World::allPairs(int body) const {
 }
 
 double World::leastGap(const std::vector<BodyState>& states) const {
+  const FloatingPointEnvironment environment;
   double least = std::numeric_limits<double>::infinity();
   for (const Pair& pair : allPairs(-1)) least = std::min(least, closestOf(states, pair).distance);
   return least;
@@ -307,10 +312,12 @@ std::optional<WorldOverlap> World::deepest(const std::vector<BodyState>& states,
 }
 
 std::optional<WorldOverlap> World::overlap(const std::vector<BodyState>& states, int body) const {
+  const FloatingPointEnvironment environment;
   return deepest(states, body, rules_.tolerance);
 }
 
 std::optional<WorldOverlap> World::squeezed(const std::vector<BodyState>& states, int body) const {
+  const FloatingPointEnvironment environment;
   return deepest(states, body, -kLeastRestGap * rules_.tolerance);
 }
 
@@ -355,6 +362,7 @@ std::optional<std::array<Vector3, 2>> World::shiftsApart(const Pair& pair, const
 }
 
 void World::partTouching(std::vector<BodyState>& states, int body) const {
+  const FloatingPointEnvironment environment;
   std::vector<Pair> pairs;
   for (const Pair& pair : allPairs(body)) {
     if (closestOf(states, pair).distance < kLostContact * rules_.tolerance) pairs.push_back(pair);

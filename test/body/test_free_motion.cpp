@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/constants.h"
+
 #include "../support/free_body.h"
 #include "../support/free_flight.h"
 
@@ -23,7 +25,7 @@ class TumblingBrick : public ::testing::TestWithParam<std::array<double, 4>> {};
 // github.com/nasa/simupy-flight, commit 70754e6): time in s, p, q, r in deg/s. Both differ from the
 // closed form by up to 3.4e-10 deg/s, and 04 is printed to 5e-11; RK4 at 1 ms adds less than 1e-11.
 constexpr double kPublishedError = 4e-10;
-constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+constexpr double kRadiansPerDegree = kPi / 180.0;
 constexpr std::array<std::array<double, 4>, 18> kPublishedRates = {{
     {0, 9.999999999960824, 19.999999999978947, 29.999999999939774},     // simulation 01
     {1, 4.25884189865367, 23.119942897440833, 28.379817775030197},      //

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/body/mass_properties.h"
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/rotation.h"
 
 #include "../support/sample_meshes.h"
@@ -21,8 +22,6 @@ using testing::joined;
 using testing::moved;
 using testing::starMesh;
 using testing::turnedOver;
-
-constexpr double kPi = 3.14159265358979323846;
 
 double largestEntry(const Matrix3& A) {
   return A.cwiseAbs().maxCoeff();

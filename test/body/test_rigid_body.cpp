@@ -5,12 +5,14 @@
 
 #include "hovercraft_sim/body/rigid_body.h"
 
+#include "../support/numbers.h"
 #include "../support/orientations.h"
 
 namespace hovercraft {
 namespace {
 
-constexpr double kRounding = 1e-15;
+using testing::kRounding;
+
 constexpr unsigned kSeed = 20261122;
 constexpr int kSamples = 100;
 

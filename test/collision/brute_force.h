@@ -150,12 +150,18 @@ inline Real distance(const Body& a, const Body& b) {
   return best;
 }
 
-/// How far B must move along n to part from A.
-inline Real overlapAlong(const Body& a, const Body& b, const Vec& n) {
+/// How far B must move along n to part from A; where that is not less than `bound`, any number that
+/// is not either. It grows with each vertex that is looked at, so that most directions of a search
+/// for the least are done after a few.
+inline Real overlapAlong(const Body& a, const Body& b, const Vec& n,
+                         Real bound = std::numeric_limits<Real>::infinity()) {
   Real high = -std::numeric_limits<Real>::infinity();
   Real low = -high;
-  for (const Vec& v : a.vertices) high = std::max(high, dot(n, v));
-  for (const Vec& v : b.vertices) low = std::min(low, dot(n, v));
+  const std::size_t most = std::max(a.vertices.size(), b.vertices.size());
+  for (std::size_t i = 0; i < most && !(high - low >= bound); ++i) {
+    if (i < a.vertices.size()) high = std::max(high, dot(n, a.vertices[i]));
+    if (i < b.vertices.size()) low = std::min(low, dot(n, b.vertices[i]));
+  }
   return high - low;
 }
 
@@ -163,8 +169,9 @@ inline Real overlapAlong(const Body& a, const Body& b, const Vec& n) {
 /// bodies overlap, and the depth then.
 inline Real leastOverlap(const Body& a, const Body& b) {
   Real least = std::numeric_limits<Real>::infinity();
-  for (const Vec& n : a.normals) least = std::min(least, overlapAlong(a, b, n));
-  for (const Vec& n : b.normals) least = std::min(least, overlapAlong(a, b, -1 * n));
+  const auto look = [&](const Vec& n) { least = std::min(least, overlapAlong(a, b, n, least)); };
+  for (const Vec& n : a.normals) look(n);
+  for (const Vec& n : b.normals) look(-1 * n);
   for (const auto& ea : a.edges) {
     const Vec d =
         a.vertices[static_cast<std::size_t>(ea[1])] - a.vertices[static_cast<std::size_t>(ea[0])];
@@ -175,8 +182,8 @@ inline Real leastOverlap(const Body& a, const Body& b) {
       const Real nn = dot(n, n);
       if (!(nn > Real(1e-30) * dot(d, d) * dot(e, e))) continue;
       const Vec unit = 1 / std::sqrt(nn) * n;
-      least = std::min(least, overlapAlong(a, b, unit));
-      least = std::min(least, overlapAlong(a, b, -1 * unit));
+      look(unit);
+      look(-1 * unit);
     }
   }
   return least;

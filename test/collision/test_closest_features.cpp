@@ -5,6 +5,7 @@
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/collision/closest_polygon_features.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
+#include "hovercraft_sim/math/constants.h"
 
 #include "../support/allocation_counter.h"
 #include "check_query.h"
@@ -12,8 +13,6 @@
 
 namespace hovercraft {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 ConvexPolyhedron randomBody(RandomBodies& random, int most, double size) {
   const double n = std::exp(random.uniform(std::log(4.0), std::log(most + 1.0)));

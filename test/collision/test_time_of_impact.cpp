@@ -5,13 +5,12 @@
 #include "hovercraft_sim/collision/time_of_impact.h"
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
+#include "hovercraft_sim/math/constants.h"
 
 #include "random_bodies.h"
 
 namespace hovercraft {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 StepMotion moving(const Vector3& p, const Vector3& v, const Vector3& w = Vector3(0, 0, 0)) {
   StepMotion motion;

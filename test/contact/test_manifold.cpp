@@ -5,6 +5,7 @@
 
 #include "hovercraft_sim/contact/manifold.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/rotation.h"
 
 namespace hovercraft {
@@ -62,8 +63,7 @@ TEST(Manifold, FacesThatHangOverTouchInTheCommonArea) {
 TEST(Manifold, AnEdgeOnAFaceTouchesInItsTwoEnds) {
   const ConvexPolyhedron box = boxPolyhedron(Vector3(0.4, 0.2, 0.2));
   const double height = 0.1 * std::sqrt(2.0);
-  const Pose X_WB =
-      poseOf(Vector3(0.25 * 3.14159265358979323846, 0.0, 0.0), Vector3(0.0, 0.0, 0.5 + height));
+  const Pose X_WB = poseOf(Vector3(0.25 * kPi, 0.0, 0.0), Vector3(0.0, 0.0, 0.5 + height));
   Pose lifted = X_WB;
   lifted.p_AB.z() += kGap;
   const ContactManifold manifold = manifoldOf(floorBox(), Pose(), box, lifted);
@@ -78,7 +78,7 @@ TEST(Manifold, AnEdgeOnAFaceTouchesInItsTwoEnds) {
 TEST(Manifold, ParallelEdgesTouchInTheEndsOfTheirCommonPart) {
   const ConvexPolyhedron box = boxPolyhedron(Vector3(0.4, 0.2, 0.2));
   const double height = 0.2 * std::sqrt(2.0);
-  const Vector3 roll(0.25 * 3.14159265358979323846, 0.0, 0.0);
+  const Vector3 roll(0.25 * kPi, 0.0, 0.0);
   const ContactManifold manifold = manifoldOf(box, poseOf(roll, Vector3::Zero()), box,
                                               poseOf(roll, Vector3(0.1, 0.0, height + kGap)));
   ASSERT_EQ(manifold.count, 2);
@@ -97,7 +97,7 @@ TEST(Manifold, ACornerAndCrossingEdgesTouchInOnePoint) {
   }
   EXPECT_EQ(manifoldOf(floorBox(), Pose(), box, {R, Vector3(0.0, 0.0, 0.5 - lowest + kGap)}).count,
             1);
-  const double quarter = 0.25 * 3.14159265358979323846;
+  const double quarter = 0.25 * kPi;
   const double height = 0.2 * std::sqrt(2.0);
   EXPECT_EQ(manifoldOf(box, poseOf(Vector3(quarter, 0.0, 0.0), Vector3::Zero()), box,
                        poseOf(Vector3(0.0, quarter, 0.0), Vector3(0.0, 0.0, height + kGap)))
@@ -121,7 +121,7 @@ TEST(Manifold, OfManyCornersTheFarthestInEightDirectionsStay) {
 /// Each direction of the plane has a point at the rim, not farther from it than 25 degrees.
 void expectSupportAllAround(const ContactManifold& manifold, double radius) {
   for (int degree = 0; degree < 360; ++degree) {
-    const double angle = degree * 3.14159265358979323846 / 180.0;
+    const double angle = degree * kPi / 180.0;
     double farthest = -radius;
     for (int i = 0; i < manifold.count; ++i) {
       const Vector3& p = manifold.points[static_cast<std::size_t>(i)].p_WC;
@@ -158,7 +158,7 @@ TEST(Manifold, TheSizeOfTheGroundDoesNotMergeTheCornersOfASmallBody) {
 TEST(Manifold, TheClosestPointsAreAmongThePoints) {
   const ConvexPolyhedron can = cylinderPolyhedron(0.3, 0.4, 128);
   for (int k = 0; k < 48; ++k) {
-    const double towards = k * 2.0 * 3.14159265358979323846 / 48.0;
+    const double towards = k * 2.0 * kPi / 48.0;
     const double lean = 3e-6;  // rad
     Pose X_WB =
         poseOf(Vector3(lean * std::cos(towards), lean * std::sin(towards), 0.0), Vector3::Zero());

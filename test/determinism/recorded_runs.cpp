@@ -59,12 +59,10 @@ class Pilot {
 };
 
 Scenario scenarioOf(const std::string& folder, const RecordedRun& run) {
-  const std::string directory = folder + "/scenarios";
-  const std::string path = directory + "/" + run.scenario + ".yaml";
-  YAML::Node tree = YAML::LoadFile(path);
-  tree["integrator"] = run.integrator;
-  tree["orientation"] = run.orientation;
-  return parseScenario(tree, {path, directory, {}});
+  const std::string path = folder + "/scenarios/" + run.scenario + ".yaml";
+  return loadScenario(
+      path, {},
+      {"hashes.txt:", {"integrator=" + run.integrator, "orientation=" + run.orientation}});
 }
 
 }  // namespace

@@ -12,11 +12,10 @@ namespace {
 
 using testing::boxMesh;
 using testing::joined;
+using testing::kOne;
 using testing::starMesh;
 using testing::tetrahedronMesh;
 using testing::turnedOver;
-
-const Vector3 kOne(1.0, 1.0, 1.0);
 
 TEST(Shells, PartsComeBackInTheOrderOfTheirFirstTriangles) {
   const TriangleMesh a = boxMesh(Vector3::Zero(), kOne);

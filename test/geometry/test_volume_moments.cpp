@@ -15,12 +15,11 @@ namespace {
 
 using testing::boxMesh;
 using testing::joined;
+using testing::kOne;
 using testing::moved;
 using testing::starMesh;
 using testing::tetrahedronMesh;
 using testing::turnedOver;
-
-const Vector3 kOne(1.0, 1.0, 1.0);
 
 double largestEntry(const Matrix3& A) {
   return A.cwiseAbs().maxCoeff();

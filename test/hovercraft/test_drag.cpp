@@ -4,10 +4,12 @@
 
 #include "hovercraft_sim/hovercraft/drag.h"
 
+#include "../support/numbers.h"
+
 namespace hovercraft {
 namespace {
 
-constexpr double kRounding = 1e-15;
+using testing::kRounding;
 
 /// Twelve different coefficients, so that no two can change places unseen.
 Drag differentCoefficients() {

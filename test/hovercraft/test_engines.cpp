@@ -7,17 +7,18 @@
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/math/elementary.h"
 
+#include "../support/numbers.h"
 #include "../support/skew_engines.h"
 
 namespace hovercraft {
 namespace {
 
-constexpr double kRounding = 1e-15;
 constexpr std::int64_t kStepNs = 10000000;  // 10 ms
 constexpr int kRear = static_cast<int>(EngineId::kRear);
 constexpr int kLeft = static_cast<int>(EngineId::kLeft);
 
 using testing::Engines;
+using testing::kRounding;
 using testing::skewEngines;
 
 EngineState commanded(double thrust, Tick tick = 0) {

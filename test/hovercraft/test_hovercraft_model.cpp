@@ -7,15 +7,16 @@
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
+#include "../support/numbers.h"
 #include "../support/skew_engines.h"
 
 namespace hovercraft {
 namespace {
 
-constexpr double kRounding = 1e-15;
 constexpr double kMass = 2.0;  // kg
 
 using testing::Engines;
+using testing::kRounding;
 using testing::skewEngines;
 
 Mobility generalMobility() {

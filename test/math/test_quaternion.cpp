@@ -2,15 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/elementary.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/rotation.h"
 
+#include "../support/numbers.h"
+
 namespace hovercraft {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRounding = 1e-15;
+using testing::kRounding;
+
 constexpr unsigned kSeed = 20261122;
 constexpr int kSamples = 200;
 

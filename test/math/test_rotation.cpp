@@ -4,12 +4,11 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/rotation.h"
 
 namespace hovercraft {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Matrix3 commutator(double a, double b) {
   return product(rotationX(a), rotationY(b)) - product(rotationY(b), rotationX(a));

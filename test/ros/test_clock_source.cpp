@@ -7,11 +7,13 @@
 #include "hovercraft_sim/ros/clock_source.h"
 #include "hovercraft_sim/ros/node_config.h"
 
+#include "../support/numbers.h"
+
 namespace hovercraft_ros {
 namespace {
 
-constexpr std::int64_t kNow = 987654321012345;  // some reading of a steady clock
-constexpr std::int64_t kStepNs = 1000000;
+using hovercraft::testing::kNow;
+using hovercraft::testing::kStepNs;
 
 /// A clock and what it published.
 struct RecordedClock {
@@ -22,7 +24,7 @@ struct RecordedClock {
   ClockSource source;
 };
 
-ros::Time stampOf(std::int64_t tick) {
+ros::Time clockStamp(std::int64_t tick) {
   ros::Time stamp;
   return stamp.fromNSec(static_cast<std::uint64_t>(tick * kStepNs));
 }
@@ -30,11 +32,11 @@ ros::Time stampOf(std::int64_t tick) {
 TEST(ClockSource, PublishesOncePerPeriodOfSimulatedTime) {
   RecordedClock clock(100.0);  // every 10 steps of 1 ms, here in real time
   for (std::int64_t tick = 1; tick <= 100; ++tick) {
-    clock.source.publishIfDue(stampOf(tick), kNow + tick * kStepNs, false);
+    clock.source.publishIfDue(clockStamp(tick), kNow + tick * kStepNs, false);
   }
   ASSERT_EQ(clock.stamps.size(), 10U);
   for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_EQ(clock.stamps[i], stampOf(10 * (static_cast<std::int64_t>(i) + 1)));
+    EXPECT_EQ(clock.stamps[i], clockStamp(10 * (static_cast<std::int64_t>(i) + 1)));
   }
 }
 
@@ -45,7 +47,7 @@ TEST(ClockSource, IsNeverAboveItsGreatestRateOfWallTime) {
   std::size_t seen = 0;
   for (std::int64_t tick = 1; tick <= 1000000; ++tick) {
     const std::int64_t now = kNow + tick * kStepNs / 1000;
-    clock.source.publishIfDue(stampOf(tick), now, tick % 2 == 0);
+    clock.source.publishIfDue(clockStamp(tick), now, tick % 2 == 0);
     if (clock.stamps.size() == seen) continue;
     seen = clock.stamps.size();
     ASSERT_GE(now - last_ns, 4000000) << tick;
@@ -65,19 +67,19 @@ TEST(ClockSource, NeverPublishesTimeZero) {
 
 TEST(ClockSource, WhoWaitsSeesWhereTheSimulationStandsAndOnce) {
   RecordedClock clock(1.0);
-  clock.source.publishIfDue(stampOf(3), kNow, false);
+  clock.source.publishIfDue(clockStamp(3), kNow, false);
   EXPECT_TRUE(clock.stamps.empty()) << "a second has not passed";
-  clock.source.publishIfDue(stampOf(3), kNow, true);
-  clock.source.publishIfDue(stampOf(3), kNow + hovercraft::kNanosecondsPerSecond, true);
-  EXPECT_EQ(clock.stamps, (std::vector<ros::Time>{stampOf(3)}));
+  clock.source.publishIfDue(clockStamp(3), kNow, true);
+  clock.source.publishIfDue(clockStamp(3), kNow + hovercraft::kNanosecondsPerSecond, true);
+  EXPECT_EQ(clock.stamps, (std::vector<ros::Time>{clockStamp(3)}));
 }
 
 TEST(ClockSource, SaysHowLongItIsUntilTheNextMessage) {
   RecordedClock clock(100.0);
-  clock.source.publishIfDue(stampOf(10), kNow, false);
-  EXPECT_EQ(clock.source.untilDueNs(stampOf(10)), 10 * kStepNs);
-  EXPECT_EQ(clock.source.untilDueNs(stampOf(13)), 7 * kStepNs);
-  EXPECT_LE(clock.source.untilDueNs(stampOf(20)), 0);
+  clock.source.publishIfDue(clockStamp(10), kNow, false);
+  EXPECT_EQ(clock.source.untilDueNs(clockStamp(10)), 10 * kStepNs);
+  EXPECT_EQ(clock.source.untilDueNs(clockStamp(13)), 7 * kStepNs);
+  EXPECT_LE(clock.source.untilDueNs(clockStamp(20)), 0);
 }
 
 }  // namespace

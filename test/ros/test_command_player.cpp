@@ -2,10 +2,12 @@
 
 #include "hovercraft_sim/ros/command_player.h"
 
+#include "../support/numbers.h"
+
 namespace hovercraft_ros {
 namespace {
 
-constexpr std::int64_t kStepNs = 1000000;
+using hovercraft::testing::kStepNs;
 
 /// @param time_ms ROS time since some beginning.
 hovercraft_sim::State stateAt(std::uint32_t episode, std::uint64_t tick, std::uint64_t time_ms) {

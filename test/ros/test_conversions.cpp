@@ -7,6 +7,8 @@
 
 #include "hovercraft_sim/ros/conversions.h"
 
+#include "../support/numbers.h"
+
 namespace hovercraft_ros {
 namespace {
 
@@ -14,8 +16,8 @@ using hovercraft::Command;
 using hovercraft::EngineId;
 using hovercraft::Quaternion;
 using hovercraft::Vector3;
+using hovercraft::testing::kNan;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void expectEqual(const Quaternion& a, const Quaternion& b) {
@@ -118,7 +120,7 @@ TEST(Conversions, ThePoseOfACentredCraftIsThatOfItsCentreOfMass) {
 }
 
 void expectTurnsXTo(const Vector3& direction) {
-  SCOPED_TRACE(testing::Message() << direction.transpose());
+  SCOPED_TRACE(::testing::Message() << direction.transpose());
   const Quaternion turn = turnFromX(direction);
   EXPECT_NEAR(hovercraft::norm(turn), 1.0, 1e-15);
   expectNear(hovercraft::rotate(turn, Vector3::UnitX()), direction / hovercraft::norm(direction),

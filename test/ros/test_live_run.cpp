@@ -217,22 +217,28 @@ TEST(RunEvents, SetStateIsRefusedByName) {
 
 TEST(RunEvents, WrenchLastsItsDurationRoundedUpToSteps) {
   const Scenario scenario = planarScenario();  // steps of 2 ms
-  EXPECT_EQ(applyWrenchEvent(scenario, wrenchRequest(), "world", 100).end_tick, 102U);
+  EXPECT_EQ(applyWrenchEvent(scenario, wrenchRequest(), TfFrames(), 100).end_tick, 102U);
   ApplyWrench::Request in_body = wrenchRequest();
   in_body.frame_id = "alpha/base_link";
-  EXPECT_EQ(applyWrenchEvent(scenario, in_body, "world", 0).in_body_axes, 1);
+  EXPECT_EQ(applyWrenchEvent(scenario, in_body, TfFrames(), 0).in_body_axes, 1);
+  in_body.frame_id = "red/alpha/base_link";
+  EXPECT_EQ(applyWrenchEvent(scenario, in_body, {"world", "red"}, 0).in_body_axes, 1);
 }
 
 TEST(RunEvents, WrenchIsRefusedByName) {
   const Scenario scenario = planarScenario();
   const auto complaint = [&scenario](const ApplyWrench::Request& request) {
-    return refusal([&] { applyWrenchEvent(scenario, request, "world", 0); });
+    return refusal([&] { applyWrenchEvent(scenario, request, TfFrames(), 0); });
   };
   ApplyWrench::Request request = wrenchRequest();
   EXPECT_EQ(complaint(request), "");
   request.frame_id = "map";
   EXPECT_EQ(complaint(request), "frame_id = map: must be world or alpha/base_link");
   request = wrenchRequest();
+  EXPECT_EQ(refusal([&] {
+              applyWrenchEvent(scenario, request, {"map", "red"}, 0);
+            }),
+            "frame_id = world: must be map or red/alpha/base_link");
   request.duration = ros::Duration(0.0);
   EXPECT_EQ(complaint(request), "duration: must be greater than 0");
   request = wrenchRequest();

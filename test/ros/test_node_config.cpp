@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -7,16 +9,33 @@
 
 #include "hovercraft_sim/ros/node_config.h"
 
+#include "../support/files.h"
 #include "../support/scenario_text.h"
 
 namespace hovercraft_ros {
 namespace {
 
+using hovercraft::ConfigNode;
+
+/// Parameters of a node, as a YAML map of texts.
+ConfigNode parametersOf(const std::string& yaml) {
+  return hovercraft::treeOf(yaml, "parameters");
+}
+
+/// Those with another one, or with another value for one.
+ConfigNode with(const ConfigNode& parameters, const std::string& key, const std::string& text) {
+  ConfigNode::Map members = parameters.members();
+  members.erase(std::remove_if(members.begin(), members.end(),
+                               [&key](const auto& member) { return member.first == key; }),
+                members.end());
+  members.emplace_back(key, ConfigNode::ofText(text, true));
+  return ConfigNode::ofMap(members);
+}
+
 /// Parameters of a node with a valid scenario (steps of 2 ms) and these others.
-YAML::Node parametersWith(const std::string& others) {
-  YAML::Node parameters = YAML::Load(others.empty() ? "{}" : others);
-  parameters["scenario"] = YAML::Load(hovercraft::testing::validScenario());
-  return parameters;
+ConfigNode parametersWith(const std::string& others) {
+  return with(parametersOf(others.empty() ? "{}" : others), "scenario",
+              hovercraft::testing::validScenario());
 }
 
 NodeConfig configWith(const std::string& others) {
@@ -24,7 +43,7 @@ NodeConfig configWith(const std::string& others) {
 }
 
 /// What parsing says, or "" if it says nothing.
-std::string complaintAbout(const YAML::Node& parameters) {
+std::string complaintAbout(const ConfigNode& parameters) {
   try {
     parseNodeConfig(parameters, "/sim");
   } catch (const std::invalid_argument& error) {
@@ -42,7 +61,8 @@ TEST(NodeConfig, HasADefaultForEverythingButTheScenario) {
   EXPECT_EQ(config.scenario.step_ns, 2000000);
   EXPECT_EQ(config.scenario.vehicles.at(0).name, "alpha");
   EXPECT_EQ(config.publish_every, 5);  // 100 Hz
-  EXPECT_EQ(config.world_frame, "world");
+  EXPECT_EQ(config.frames.world, "world");
+  EXPECT_EQ(config.frames.prefix, "");
   EXPECT_EQ(config.real_time_factor, 1.0);
   EXPECT_FALSE(config.paused);
   EXPECT_FALSE(config.clock);
@@ -55,11 +75,13 @@ TEST(NodeConfig, HasADefaultForEverythingButTheScenario) {
 
 TEST(NodeConfig, TakesEveryParameter) {
   const NodeConfig config = configWith(
-      "{publish_rate: 50, world_frame: map, real_time_factor: 0, paused: true, clock: true, "
+      "{publish_rate: 50, world_frame: map, tf_prefix: red/1, real_time_factor: 0, paused: true, "
+      "clock: true, "
       "clock_rate: 250, lockstep: true, control_period: 0.02, lockstep_timeout: 0.5, "
       "diagnostic_period: 0.1}");
   EXPECT_EQ(config.publish_every, 10);
-  EXPECT_EQ(config.world_frame, "map");
+  EXPECT_EQ(config.frames.world, "map");
+  EXPECT_EQ(config.frames.prefix, "red/1");
   EXPECT_EQ(config.real_time_factor, 0.0);
   EXPECT_TRUE(config.paused);
   EXPECT_TRUE(config.clock);
@@ -83,9 +105,7 @@ TEST(NodeConfig, ThePublishRateDividesTheStepRate) {
 }
 
 TEST(NodeConfig, StepsLongerThanTheDefaultPeriodArePublishedEachTime) {
-  YAML::Node parameters = parametersWith("");
-  parameters["scenario"]["step_size"] = "0.05";
-  EXPECT_EQ(parseNodeConfig(parameters, "/sim").publish_every, 1);
+  EXPECT_EQ(configWith("{set: step_size=0.05}").publish_every, 1);
 }
 
 TEST(NodeConfig, TheControlPeriodIsWholeSteps) {
@@ -123,18 +143,25 @@ TEST(NodeConfig, ARealTimeFactorIsZeroOrWhatCanBeMeant) {
 TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
   EXPECT_EQ(complaintWith("{world_frame: /map}"),
             "/sim: world_frame = /map: must not begin with a slash (tf2)");
+  for (const char* prefix : {"/red", "red/", "/"}) {
+    EXPECT_EQ(complaintWith(std::string("{tf_prefix: ") + prefix + "}"),
+              std::string("/sim: tf_prefix = ") + prefix + ": must not begin or end with a slash");
+  }
+  EXPECT_EQ(complaintWith("{tf_prefix: ''}"), "/sim: tf_prefix: must be a text");
   EXPECT_EQ(complaintWith("{world_frame: ''}"), "/sim: world_frame: must be a text");
   EXPECT_EQ(complaintWith("{real_time_factor: -1}"),
             "/sim: real_time_factor = -1: must be 0 (as fast as it can) or 1e-6 to 1000");
   EXPECT_EQ(complaintWith("{real_time_factor: 1001}"),
             "/sim: real_time_factor = 1001: must be 0 (as fast as it can) or 1e-6 to 1000");
-  EXPECT_EQ(complaintWith("{paused: 1}"), "/sim: paused = 1: must be true or false");
-  EXPECT_EQ(complaintWith("{clock: maybe}"), "/sim: clock = maybe: must be true or false");
+  const std::string of_a_switch = ": must be true or false (or 1, 0, yes, no, on, off)";
+  EXPECT_EQ(complaintWith("{clock: maybe}"), "/sim: clock = maybe" + of_a_switch);
+  EXPECT_EQ(complaintWith("{paused: 2}"), "/sim: paused = 2" + of_a_switch);
+  EXPECT_EQ(complaintWith("{paused: [true]}"), "/sim: paused = [true]: must be a text");
   EXPECT_EQ(complaintWith("{clock_rate: 251}"), "/sim: clock_rate = 251: must be 0.001 to 250 Hz");
   EXPECT_EQ(complaintWith("{clock_rate: 0}"), "/sim: clock_rate = 0: must be 0.001 to 250 Hz");
   EXPECT_EQ(complaintWith("{clock_rate: 1e-10}"),
             "/sim: clock_rate = 1e-10: must be 0.001 to 250 Hz");
-  EXPECT_EQ(complaintWith("{lockstep: 2}"), "/sim: lockstep = 2: must be true or false");
+  EXPECT_EQ(complaintWith("{lockstep: 01}"), "/sim: lockstep = 01" + of_a_switch);
   EXPECT_EQ(complaintWith("{lockstep_timeout: 0}"),
             "/sim: lockstep_timeout = 0: must be greater than 0");
   EXPECT_EQ(complaintWith("{diagnostic_period: 0}"),
@@ -146,36 +173,109 @@ TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
 }
 
 TEST(NodeConfig, AParameterThatNobodyKnowsIsAnError) {
-  EXPECT_EQ(complaintWith("{publish_rat: 50}"),
-            "/sim: publish_rat = 50: unknown key; known here: scenario, publish_rate, world_frame, "
-            "real_time_factor, paused, clock, clock_rate, lockstep, control_period, "
-            "lockstep_timeout, diagnostic_period");
+  EXPECT_EQ(
+      complaintWith("{publish_rat: 50}"),
+      "/sim: publish_rat = 50: unknown key; known here: scenario, scenario_dir, "
+      "scenario_file, set, publish_rate, world_frame, tf_prefix, real_time_factor, paused, clock, "
+      "clock_rate, lockstep, control_period, lockstep_timeout, diagnostic_period");
+}
+
+// As roslaunch's `if`, and as rosparam reads YAML.
+TEST(NodeConfig, ASwitchTakesTheWordsOfRoslaunchAndRosparam) {
+  for (const char* word : {"true", "True", "TRUE", "1", "yes", "Yes", "on", "ON"}) {
+    for (const char* key : {"paused", "clock", "lockstep"}) {
+      const NodeConfig config = parseNodeConfig(with(parametersWith(""), key, word), "/sim");
+      EXPECT_EQ(config.paused, key == std::string("paused")) << word;
+      EXPECT_EQ(config.clock, key == std::string("clock")) << word;
+      EXPECT_EQ(config.lockstep, key == std::string("lockstep")) << word;
+    }
+  }
+  for (const char* word : {"false", "False", "FALSE", "0", "no", "No", "off", "OFF"}) {
+    const ConfigNode parameters = with(parametersWith(""), "paused", word);
+    EXPECT_FALSE(parseNodeConfig(parameters, "/sim").paused) << word;
+  }
 }
 
 TEST(NodeConfig, AMissingScenarioIsExplained) {
   const std::string explanation =
-      "/sim/scenario: the parameter is missing; load a scenario with <rosparam command=\"load\" "
-      "ns=\"scenario\" file=\"...\"/> inside the <node>, as sim.launch does";
-  EXPECT_EQ(complaintAbout(YAML::Load("{publish_rate: 50}")), explanation);
-  EXPECT_EQ(complaintAbout(YAML::Node()), explanation) << "no parameter at all";
+      "/sim/scenario: the parameter is missing: give the text of a scenario file by <param "
+      "name=\"scenario\" textfile=\"FILE\"/> inside the <node>, as sim.launch does, or the path of "
+      "one on the node's machine as scenario_file";
+  EXPECT_EQ(complaintAbout(parametersOf("{publish_rate: 50}")), explanation);
+  EXPECT_EQ(complaintAbout(parametersOf("{}")), explanation) << "no parameter at all";
+}
+
+TEST(NodeConfig, TheTreeOfOldIsRefusedWithTheLineToWrite) {
+  const std::string refusal =
+      "/sim/scenario: must be the text of a scenario file; since version 0.2.0 its tree is "
+      "refused, "
+      "as a parameter server loses part of it: write <param name=\"scenario\" textfile=\"FILE\"/> "
+      "in "
+      "the place of <rosparam command=\"load\" ns=\"scenario\" file=\"FILE\"/>";
+  EXPECT_EQ(complaintAbout(parametersOf("{scenario: {}}")), refusal);
+  EXPECT_EQ(complaintAbout(parametersOf("{scenario: [], scenario_file: /a.yaml}")), refusal);
+}
+
+TEST(NodeConfig, AScenarioMayBeAFileOfTheNodesMachine) {
+  const hovercraft::testing::TestFolder folder;
+  std::filesystem::copy_file("test/data/cube.obj", folder.file("hull.obj"));
+  const std::string text = hovercraft::testing::with(
+      hovercraft::testing::validScenario(), hovercraft::testing::kMassByNumbers,
+      "    parts: [{mesh: {file: hull.obj}, mass: 3}]\n");
+  const std::string file = std::filesystem::absolute(folder.write("s.yaml", text)).string();
+  const ConfigNode by_file = with(parametersOf("{}"), "scenario_file", file);
+  const auto from_file = parseNodeConfig(by_file, "/sim").scenario;
+  EXPECT_EQ(from_file.vehicles[0].mass_properties.mass, 3.0);
+
+  const ConfigNode by_text = with(parametersOf("{}"), "scenario", text);
+  EXPECT_EQ(complaintAbout(by_text).rfind("/sim/scenario: vehicles.alpha.parts[0].mesh.file = "
+                                          "hull.obj: is relative to no folder",
+                                          0),
+            0U)
+      << complaintAbout(by_text);
+  const std::string directory = std::filesystem::path(file).parent_path().string();
+  const auto from_text = parseNodeConfig(with(by_text, "scenario_dir", directory), "/sim").scenario;
+  EXPECT_EQ(toYaml(from_text), toYaml(from_file));
+
+  EXPECT_EQ(complaintAbout(with(by_text, "scenario_file", file)),
+            "/sim: scenario_file = " + file + ": must not stand beside scenario: give one");
+  EXPECT_EQ(
+      complaintAbout(with(by_file, "scenario_dir", directory)),
+      "/sim: scenario_dir = " + directory + ": belongs to scenario: a file has its own folder");
+  EXPECT_EQ(complaintAbout(with(by_file, "scenario_file", "s.yaml")),
+            "/sim: scenario_file = s.yaml: must be an absolute path");
+  EXPECT_EQ(complaintAbout(with(by_text, "scenario_dir", "config")),
+            "/sim: scenario_dir = config: must be an absolute path");
+  EXPECT_EQ(complaintAbout(with(by_file, "scenario_file", "/nowhere/s.yaml")),
+            "/nowhere/s.yaml: there is no such file");
+}
+
+TEST(NodeConfig, OverridesChangeTheScenario) {
+  const auto mass = [](const std::string& set) {
+    return configWith("{set: '" + set + "'}").scenario.vehicles[0].mass_properties.mass;
+  };
+  EXPECT_EQ(mass("vehicles.alpha.mass=6; seed=3"), 6.0);
+  EXPECT_EQ(mass(";"), 5.5);
+  EXPECT_EQ(mass(""), 5.5);
+  EXPECT_EQ(complaintWith("{set: vehicles.beta.mass=6}"),
+            "/sim/set vehicles.beta.mass=6: vehicles has no key beta; there: alpha");
+  EXPECT_EQ(complaintWith("{set: {seed: 3}}"),
+            "/sim: set = {seed: 3}: must be a text: KEY.PATH=VALUE; KEY.PATH=VALUE");
 }
 
 TEST(NodeConfig, AnErrorInTheScenarioNamesTheParameter) {
-  YAML::Node parameters = parametersWith("");
-  parameters["scenario"]["vehicles"]["alpha"]["mass"] = "-5.5";
-  EXPECT_EQ(complaintAbout(parameters),
+  const std::string text =
+      hovercraft::testing::with(hovercraft::testing::validScenario(), "mass: 5.5", "mass: -5.5");
+  EXPECT_EQ(complaintAbout(with(parametersOf("{}"), "scenario", text)),
             "/sim/scenario: vehicles.alpha.mass = -5.5: must be greater than 0");
 }
 
 TEST(NodeConfig, AMeshOfAPackageThatIsNotThereIsAnError) {
-  YAML::Node parameters = parametersWith("");
-  YAML::Node craft = parameters["scenario"]["vehicles"]["alpha"];
-  craft.remove("mass");
-  craft.remove("inertia");
-  craft.remove("center_of_mass");
-  craft["parts"] = YAML::Load("[{mesh: {file: 'package://no_such_package/a.obj'}, mass: 1}]");
-  EXPECT_NE(complaintAbout(parameters).find("no_such_package"), std::string::npos)
-      << complaintAbout(parameters);
+  const std::string text = hovercraft::testing::with(
+      hovercraft::testing::validScenario(), hovercraft::testing::kMassByNumbers,
+      "    parts: [{mesh: {file: 'package://no_such_package/a.obj'}, mass: 1}]\n");
+  const std::string complaint = complaintAbout(with(parametersOf("{}"), "scenario", text));
+  EXPECT_NE(complaint.find("no_such_package"), std::string::npos) << complaint;
 }
 
 }  // namespace

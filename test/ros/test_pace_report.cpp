@@ -5,14 +5,16 @@
 
 #include "hovercraft_sim/ros/pace_report.h"
 
+#include "../support/numbers.h"
+
 namespace hovercraft_ros {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
+using hovercraft::testing::kNow;
 using hovercraft_sim::Telemetry;
 
-constexpr std::int64_t kNow = 987654321012345;  // some reading of a steady clock
-constexpr std::int64_t kStepNs = 2000000;
+constexpr std::int64_t kPacedStepNs = 2000000;
 constexpr std::int64_t kSecond = 1000000000;
 constexpr double kBucket = 0.125;  // a quantile is right to one bucket of the histogram
 
@@ -29,11 +31,11 @@ Telemetry filled() {
   PaceReport report;
   report.restart(kNow);
   for (int i = 0; i < 250; ++i) report.addStep(i % 10 == 0 ? 1000000 : 10000);
-  for (int i = 0; i < 20; ++i) report.addLateness(i < 3 ? 5000000 : 100000, kStepNs);
+  for (int i = 0; i < 20; ++i) report.addLateness(i < 3 ? 5000000 : 100000, kPacedStepNs);
   report.addGivenUp(200000000);
   report.addGivenUp(50000000);
   Telemetry telemetry;
-  report.fill(telemetry, kNow + kSecond, kStepNs);
+  report.fill(telemetry, kNow + kSecond, kPacedStepNs);
   return telemetry;
 }
 
@@ -50,24 +52,24 @@ TEST(PaceReport, SaysHowThePaceWasKept) {
 
 TEST(PaceReport, AStepThatBeginsOneStepSizeAfterItsDeadlineIsNotLateYet) {
   PaceReport report;
-  report.addLateness(kStepNs, kStepNs);
+  report.addLateness(kPacedStepNs, kPacedStepNs);
   Telemetry telemetry;
-  report.fill(telemetry, kNow, kStepNs);
+  report.fill(telemetry, kNow, kPacedStepNs);
   EXPECT_EQ(telemetry.late_steps, 0U);
-  report.addLateness(kStepNs + 1, kStepNs);
-  report.fill(telemetry, kNow, kStepNs);
+  report.addLateness(kPacedStepNs + 1, kPacedStepNs);
+  report.fill(telemetry, kNow, kPacedStepNs);
   EXPECT_EQ(telemetry.late_steps, 1U);
 }
 
 TEST(PaceReport, RestartForgetsEverything) {
   PaceReport report;
   report.addStep(1000);
-  report.addLateness(kSecond, kStepNs);
+  report.addLateness(kSecond, kPacedStepNs);
   report.addGivenUp(kSecond);
   report.restart(kNow);
   EXPECT_EQ(report.givenUp(), 0);
   Telemetry telemetry;
-  report.fill(telemetry, kNow, kStepNs);  // no time has passed: no division by 0
+  report.fill(telemetry, kNow, kPacedStepNs);  // no time has passed: no division by 0
   EXPECT_EQ(telemetry.real_time_factor, 0.0);
   EXPECT_EQ(telemetry.lateness_p99, 0.0);
   EXPECT_EQ(telemetry.late_steps, 0U);

@@ -5,11 +5,13 @@
 
 #include "hovercraft_sim/ros/pacer.h"
 
+#include "../support/numbers.h"
+
 namespace hovercraft_ros {
 namespace {
 
-constexpr std::int64_t kStepNs = 1000000;
-constexpr std::int64_t kNow = 987654321012345;  // some reading of a steady clock
+using hovercraft::testing::kNow;
+using hovercraft::testing::kStepNs;
 
 TEST(Pacer, CountsDeadlinesFromOneOriginSoThatNoErrorAddsUp) {
   Pacer pacer(kStepNs, 1.0);

@@ -1,107 +1,60 @@
-#include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/ros/parameters.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
-#include "hovercraft_sim/sim/simulation.h"
 
-#include "../support/parameter_server.h"
 #include "../support/scenario_text.h"
 
 namespace hovercraft_ros {
 namespace {
 
+using hovercraft::ConfigNode;
 using XmlRpc::XmlRpcValue;
 
-constexpr const char* kSource = "/sim";
+ConfigNode nodeOf(const XmlRpcValue& value) {
+  XmlRpcValue parameters;
+  parameters["p"] = value;
+  return *parameterTree(parameters, "/sim").find("p");
+}
 
-TEST(Parameters, ADoubleKeepsEveryBit) {
-  for (const double number : {0.1, 1.0 / 3.0, -2.5e-3, 1e22, 123456789.123456789, 5e-324, -0.0,
-                              std::numeric_limits<double>::max(), std::nextafter(1.0, 2.0)}) {
-    const auto back = toYaml(XmlRpcValue(number), kSource).as<double>();
-    EXPECT_EQ(back, number);
-    EXPECT_EQ(std::signbit(back), std::signbit(number)) << number;
+TEST(Parameters, NumbersAndTruthsAreTextsThatGiveThemBack) {
+  EXPECT_EQ(nodeOf(XmlRpcValue(0.1)).text(), "0.1");
+  EXPECT_EQ(nodeOf(XmlRpcValue(1e-7)).text(), "1e-07");
+  EXPECT_EQ(nodeOf(XmlRpcValue(-2147483647)).text(), "-2147483647");
+  EXPECT_EQ(nodeOf(XmlRpcValue(true)).text(), "true");
+  EXPECT_EQ(nodeOf(XmlRpcValue(false)).text(), "false");
+  EXPECT_EQ(nodeOf(XmlRpcValue(std::numeric_limits<double>::infinity())).text(), "inf");
+}
+
+// roslaunch makes a text of 1e1, and it is to be a number.
+TEST(Parameters, TextsAreKeptAndCountAsPlain) {
+  for (const char* text : {"", "1e1", "yes", "a: 1\n<<: {}\n", "package://craft/hull: a.obj"}) {
+    EXPECT_EQ(nodeOf(XmlRpcValue(text)).text(), text);
+    EXPECT_TRUE(nodeOf(XmlRpcValue(text)).isPlainText());
   }
 }
 
-TEST(Parameters, IntBoolAndTextStayWhatTheyAre) {
-  EXPECT_EQ(toYaml(XmlRpcValue(-2147483647), kSource).Scalar(), "-2147483647");
-  EXPECT_EQ(toYaml(XmlRpcValue(0), kSource).Scalar(), "0");
-  EXPECT_EQ(toYaml(XmlRpcValue(true), kSource).Scalar(), "true");
-  EXPECT_EQ(toYaml(XmlRpcValue(false), kSource).Scalar(), "false");
-  EXPECT_EQ(toYaml(XmlRpcValue("package://craft/hull: a.obj"), kSource).Scalar(),
-            "package://craft/hull: a.obj");
-  EXPECT_EQ(toYaml(XmlRpcValue(""), kSource).Scalar(), "");
+TEST(Parameters, TreesAndListsAreKnownAsSuchOnly) {
+  XmlRpcValue tree;
+  tree["a"][0] = 1;
+  EXPECT_TRUE(nodeOf(tree).isMap());
+  EXPECT_TRUE(nodeOf(tree).members().empty());
+  EXPECT_TRUE(nodeOf(tree["a"]).isList());
+  EXPECT_TRUE(nodeOf(tree["a"]).items().empty());
 }
 
-TEST(Parameters, ListsAndMapsKeepTheirShape) {
-  XmlRpcValue value;
-  value["list"][0] = 1.5;
-  value["list"][1] = 2;
-  value["list"][2]["deep"] = "text";
-  value["empty"].setSize(0);
-  const YAML::Node tree = toYaml(value, kSource);
-  ASSERT_TRUE(tree.IsMap());
-  ASSERT_EQ(tree.size(), 2U);
-  ASSERT_TRUE(tree["list"].IsSequence());
-  ASSERT_EQ(tree["list"].size(), 3U);
-  EXPECT_EQ(tree["list"][0].as<double>(), 1.5);
-  EXPECT_EQ(tree["list"][1].as<int>(), 2);
-  EXPECT_EQ(tree["list"][2]["deep"].as<std::string>(), "text");
-  ASSERT_TRUE(tree["empty"].IsSequence());
-  EXPECT_EQ(tree["empty"].size(), 0U);
+TEST(Parameters, ANamespaceThatIsNotThereIsEmpty) {
+  EXPECT_TRUE(parameterTree(XmlRpcValue(), "/sim").isMap());
+  EXPECT_TRUE(parameterTree(XmlRpcValue(), "/sim").members().empty());
 }
 
-TEST(Parameters, AParameterThatIsNotThereIsNull) {
-  EXPECT_TRUE(toYaml(XmlRpcValue(), kSource).IsNull());
-}
-
-TEST(Parameters, ATypeWithoutAPlaceInAScenarioIsRefusedByItsKeyPath) {
+TEST(Parameters, AnotherTypeIsRefusedByItsName) {
   char bytes[] = {1, 2, 3};
   const XmlRpcValue binary(bytes, 3);
-  XmlRpcValue parameters;
-  parameters["scenario"]["list"][0] = 1.5;
-  parameters["scenario"]["list"][1] = binary;
-  const auto complaint = [](const XmlRpcValue& value) {
-    return hovercraft::testing::messageOf([&value] { toYaml(value, kSource); });
-  };
-  EXPECT_EQ(complaint(binary), "/sim: must be a number, text, list or map");
-  EXPECT_EQ(complaint(parameters), "/sim: scenario.list[1]: must be a number, text, list or map");
-}
-
-TEST(Parameters, TheValueIsNotChanged) {
-  XmlRpcValue value;
-  value["a"][0] = 0.25;
-  const XmlRpcValue before = value;
-  toYaml(value, kSource);
-  EXPECT_TRUE(value == before);
-}
-
-/// The bits of where a flight of 100 steps ends: they hold every number of the scenario.
-std::uint64_t flightHash(const hovercraft::Scenario& scenario) {
-  hovercraft::Simulation simulation(scenario);
-  simulation.push({0, 0, hovercraft::kAllEngines, {1.0, 0.2, 0.3}});
-  for (int i = 0; i < 100; ++i) simulation.step();
-  return simulation.hash();
-}
-
-void expectSameScenario(const YAML::Node& file) {
-  const hovercraft::ScenarioSource source = {"test", "", {}};
-  const hovercraft::Scenario from_file = hovercraft::parseScenario(file, source);
-  const hovercraft::Scenario from_server =
-      hovercraft::parseScenario(toYaml(testing::loadedByRosparam(file), kSource), source);
-  EXPECT_EQ(hovercraft::toYaml(from_server), hovercraft::toYaml(from_file));
-  EXPECT_EQ(flightHash(from_server), flightHash(from_file));
-}
-
-TEST(Parameters, AScenarioFromTheParameterServerIsTheOneFromItsFile) {
-  expectSameScenario(YAML::LoadFile("config/hovercraft.yaml"));
-  expectSameScenario(YAML::LoadFile("config/mvwt.yaml"));
-  expectSameScenario(YAML::Load(hovercraft::testing::validScenario()));
+  EXPECT_EQ(hovercraft::testing::messageOf([&binary] { nodeOf(binary); }),
+            "/sim: p: must be a number, true or false, or a text");
 }
 
 }  // namespace

@@ -16,23 +16,25 @@
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/replay.h"
+#include "hovercraft_sim/ros/run_events.h"
 #include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
 
 #include "../support/files.h"
+#include "../support/numbers.h"
 #include "../support/scenarios.h"
 
 namespace hovercraft_ros {
 namespace {
 
 using hovercraft::testing::contentOf;
+using hovercraft::testing::kNan;
 using hovercraft::testing::messageOf;
 using hovercraft::testing::oneCraftYaml;
 using hovercraft::testing::TestFolder;
 using hovercraft_sim::AppliedCommand;
 using hovercraft_sim::RunEvent;
 using hovercraft_sim::State;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A bag of a run, whole or with something in it that cannot be.
 class RecordedInput : public ::testing::Test {
@@ -85,6 +87,58 @@ class RecordedInput : public ::testing::Test {
 TEST_F(RecordedInput, IsReplayedAsItIs) {
   std::string verdict;
   EXPECT_EQ(replayBag({run_, "", {}}, verdict), 0) << verdict;
+}
+
+// A recorder that comes to a run that stands at tick 0 is given its state; time 0 is none to ROS.
+TEST_F(RecordedInput, AStateOfTickZeroMayHaveTheStampOfTickOne) {
+  damage<State>("/craft/state", [](State&) {});
+  const hovercraft::Simulation simulation(hovercraft::testing::scenarioOf(oneCraftYaml()));
+  VehicleMessages messages(simulation.scenario(), 0);
+  messages.fill(simulation, {ros::Time(0, 10000000)});
+  {
+    rosbag::Bag damaged(damaged_, rosbag::bagmode::Append);
+    damaged.write("/craft/state", ros::Time(0, 1), messages.state());
+  }
+  std::string verdict;
+  EXPECT_EQ(replayBag({damaged_, "", {}}, verdict), 0) << verdict;
+  EXPECT_NE(verdict.find("21 states compared"), std::string::npos) << verdict;
+}
+
+/// The run as an episode 1, which a reset began; before it, a state of the episode before.
+TEST_F(RecordedInput, WhereTheRunStoodBeforeTheResetIsNoGap) {
+  const auto write = [this](bool moved) {
+    const rosbag::Bag run(run_);
+    rosbag::Bag whole(damaged_, rosbag::bagmode::Write);
+    State before;
+    before.tick = 57;
+    before.commands = 4;
+    before.header.stamp = ros::Time(0, 570000000);
+    whole.write("/craft/state", ros::Time(0, 1), before);
+    before.tick = 58;
+    before.header.stamp = ros::Time(0, 580000000);
+    if (moved) whole.write("/craft/state", ros::Time(0, 2), before);
+    RunEvent reset = resetEvent(1);
+    reset.episode = 1;
+    reset.number = 1;
+    whole.write("/hovercraft_sim/events", ros::Time(0, 3), reset);
+    for (const rosbag::MessageInstance& instance : rosbag::View(run)) {
+      if (const auto state = instance.instantiate<State>()) {
+        state->episode = 1;
+        state->events = 1;
+        whole.write(instance.getTopic(), instance.getTime(), *state);
+      } else if (const auto command = instance.instantiate<AppliedCommand>()) {
+        command->episode = 1;
+        whole.write(instance.getTopic(), instance.getTime(), *command);
+      } else {
+        whole.write(instance.getTopic(), instance.getTime(), instance);
+      }
+    }
+  };
+  std::string verdict;
+  write(false);
+  EXPECT_EQ(replayBag({damaged_, "", {}}, verdict), 0) << verdict;
+  write(true);  // a flight of which commands are missing
+  EXPECT_EQ(replayBag({damaged_, "", {}}, verdict), 2) << verdict;
 }
 
 TEST_F(RecordedInput, ACommandIsCheckedByTopicTimeAndRule) {

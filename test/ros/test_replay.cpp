@@ -19,6 +19,7 @@
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/replay.h"
 #include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 #include "../support/files.h"
@@ -52,7 +53,7 @@ class RecordedRun : public ::testing::Test {
     wrench.frame_id = "beta/base_link";
     wrench.wrench.torque.z = 0.4;
     wrench.duration = ros::Duration(0.3);
-    record(applyWrenchEvent(scenario_, wrench, "world", run_.simulation().tick()));
+    record(applyWrenchEvent(scenario_, wrench, TfFrames(), run_.simulation().tick()));
     advance(38);
     const std::string snapshot = hovercraft::toSnapshot(run_.simulation());
     record(resetEvent(3));
@@ -101,6 +102,26 @@ TEST_F(RecordedRun, IsReplayedToTheLastBit) {
   EXPECT_EQ(result.unknown_states, 0U);
   EXPECT_EQ(result.compared_states, recording_.states.size());
   EXPECT_EQ(recording_.states.back().time.episode, 2U);
+}
+
+// Whoever comes to a run that stands is given the state as it is by then.
+TEST_F(RecordedRun, AStateThatCameAfterAnEventOfItsTickIsComparedAfterIt) {
+  hovercraft_sim::SetState::Request motion;
+  motion.vehicle = "beta";
+  motion.pose.position.x = 7.0;
+  motion.pose.orientation.w = 1.0;
+  record(setStateEvent(scenario_, motion));
+  for (std::size_t vehicle = 0; vehicle < messages_.size(); ++vehicle) {
+    messages_[vehicle].fill(run_.simulation(), run_.place());
+    recording_.states.push_back({now(), vehicle, messages_[vehicle].state()});
+  }
+  EXPECT_EQ(recording_.states.back().state.pose.position.x, 7.0);
+  motion.pose.position.x = 8.0;
+  record(setStateEvent(scenario_, motion));
+  advance(20);
+  const ReplayResult result = replay(recording_, scenario_, true);
+  EXPECT_FALSE(result.difference);
+  EXPECT_EQ(result.compared_states, recording_.states.size());
 }
 
 TEST_F(RecordedRun, OneChangedBitIsFound) {
@@ -283,9 +304,10 @@ TEST_F(RecordedRun, ADifferenceIsToldWithItsPlaceAndBothValues) {
   writeBag(recording_, {"alpha", "beta"}, folder.file("run.bag"));
   std::string verdict;
   EXPECT_EQ(replayBag({folder.file("run.bag"), "", {}}, verdict), 1);
-  EXPECT_EQ(verdict, fmt::format("different: episode 2, tick {}, alpha: velocity = {:.17g} "
-                                 "recorded, {:.17g} replayed",
-                                 changed.time.tick, recorded, replayed));
+  EXPECT_EQ(verdict, fmt::format("different: episode 2, tick {}, alpha: velocity = {} recorded, "
+                                 "{} replayed",
+                                 changed.time.tick, hovercraft::numberText(recorded),
+                                 hovercraft::numberText(replayed)));
   changed.state.velocity.x = replayed;
   changed.state.hash ^= 0xfU;
   writeBag(recording_, {"alpha", "beta"}, folder.file("run.bag"));

@@ -163,13 +163,25 @@ TEST_F(Simulate, RunsToTheFirstTickAtOrAfterTheDuration) {
   EXPECT_EQ(hovercraft::readStatesCsv(request.output).front().samples.back().time_ns, 580000000);
 }
 
-TEST_F(Simulate, EndsWithASummary) {
+TEST_F(Simulate, EndsWithWhatAStepCostAndASummary) {
   SimulateRequest request = requestOf(oneCraftYaml());
-  request.duration = "2.5";
-  EXPECT_TRUE(std::regex_match(
-      messagesOf(request),
-      std::regex("simulated 2\\.5 s in 250 ticks, wall time [0-9.]+ s, [0-9]+ x real time, state "
-                 "hash [0-9a-f]{16}\n")));
+  request.duration = "250";
+  const std::string messages = messagesOf(request);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_match(
+      messages, found,
+      std::regex("a step cost ([0-9]+) ns, ([0-9.e+]+) x real time, without the output\n"
+                 "simulated 250 s in 25000 ticks, wall time ([0-9.]+) s, ([0-9]+) x real time, "
+                 "state hash [0-9a-f]{16}\n")))
+      << messages;
+  const double cost = std::stod(found[1]);
+  const double factor = std::stod(found[2]);
+  const double wall = std::stod(found[3]);
+  EXPECT_GE(cost, 1.0);
+  EXPECT_NEAR(factor * cost, 1e7, 0.5 * factor + 0.006e7);  // a step is 10 ms; both are rounded
+  // Every state is written, which costs more than a step: what is said without it is less.
+  EXPECT_LT(25000.0 * cost, 0.8e9 * wall + 1e6);
+  EXPECT_NEAR(std::stod(found[4]) * wall, 250.0, 0.5 * wall + 0.001 * std::stod(found[4]));
 }
 
 TEST_F(Simulate, DrawsABarOnlyIfAskedTo) {
@@ -179,7 +191,7 @@ TEST_F(Simulate, DrawsABarOnlyIfAskedTo) {
   request.shows_progress = true;
   const std::string messages = messagesOf(request);
   EXPECT_EQ(messages.rfind("\r[" + std::string(40, ' ') + "]   0%", 0), 0U) << messages;
-  EXPECT_NE(messages.find("\rsimulated 100 s"), std::string::npos);  // the bar was wiped
+  EXPECT_NE(messages.find("\ra step cost"), std::string::npos);  // the bar was wiped
 }
 
 TEST(ProgressBar, FillsAsItGoesAndIsWiped) {

@@ -25,8 +25,8 @@ struct Outcome {
   std::string output;  // both streams
 };
 
-/// Runs a tool of the package, which lies beside this test, or a script of the source folder. `{}`
-/// in the arguments is the folder.
+/// Runs a tool of the package, which lies beside this test, or a script of the source folder, or
+/// bash. `{}` in the arguments is the folder.
 class Tools : public ::testing::Test {
  protected:
   Outcome run(std::string arguments) const {
@@ -34,7 +34,10 @@ class Tools : public ::testing::Test {
          at = arguments.find("{}")) {
       arguments.replace(at, 2, folder_.file(""));
     }
-    const bool is_script = arguments.rfind("scripts/", 0) == 0;
+    // Not executable, so that rosrun does not find it beside its copy in the devel space.
+    if (arguments.rfind("scripts/plot_run.py", 0) == 0) arguments.insert(0, "python3 ");
+    const bool is_script = arguments.rfind("python3 ", 0) == 0 ||
+                           arguments.rfind("scripts/", 0) == 0 || arguments.rfind("bash ", 0) == 0;
     const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
     const std::string command = is_script ? arguments : folder.string() + "/" + arguments;
     std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
@@ -128,6 +131,26 @@ TEST_F(Tools, ReplayAnswersWhatIfAndCompareSaysWhereTheyPart) {
   EXPECT_NE(parted.output.find("in B (B - A = -2.5e-05)\n"), std::string::npos) << parted.output;
 }
 
+TEST_F(Tools, SimulateAndReplayTakeTheSameOtherValues) {
+  folder_.write("s.yaml", oneCraftYaml());
+  folder_.write("c.csv", "time,rear,left,right\n0.03,3,1,0\n");
+  const std::string sets =
+      "--set 'vehicles.craft.mass=3; wind=[0, 1, 0]' -s "
+      "vehicles.craft.engines.left.direction[1]=1";
+  ASSERT_EQ(run("simulate {}s.yaml -c {}c.csv -d 0.2 -o {}run.bag").status, 0);
+  const Outcome flown = run("simulate {}s.yaml -c {}c.csv -d 0.2 " + sets + " -o {}changed.bag");
+  ASSERT_EQ(flown.status, 0) << flown.output;
+  ASSERT_EQ(run("replay {}run.bag " + sets + " --output {}what_if.bag").status, 0);
+  EXPECT_EQ(run("compare {}changed.bag {}what_if.bag").status, 0);
+  EXPECT_EQ(run("compare {}run.bag {}what_if.bag").status, 1);
+  EXPECT_EQ(run("replay {}changed.bag").status, 0);
+  const Outcome bad = run("simulate {}s.yaml -d 0.2 --set vehicles.raft.mass=3 -o {}bad.csv");
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_EQ(bad.output,
+            "simulate: --set vehicles.raft.mass=3: vehicles has no key raft; there: craft\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_.file("bad.csv")));
+}
+
 TEST_F(Tools, PlotRunDrawsTheOnlyCraftAmongLooseBodies) {
   ASSERT_EQ(run("simulate config/crates.yaml -d 0.5 -o {}crates.bag").status, 0);
   const Outcome drawn = run("scripts/plot_run.py {}crates.bag -o {}run.png");
@@ -142,6 +165,69 @@ TEST_F(Tools, PlotRunDrawsTheOnlyCraftAmongLooseBodies) {
                             "--vehicle\n"),
             std::string::npos)
       << two.output;
+}
+
+// A craft that tumbles, so that each axis of the craft is none of the world: the rows of the CSV,
+// turned into them, are what the bag has.
+TEST_F(Tools, PlotRunReadsTheSameFromACsvAsFromABag) {
+  std::string yaml = oneCraftYaml() +
+                     "    initial: {rpy: [0.4, 0.5, 0.6], velocity: [1, 2, 3], "
+                     "angular_velocity: [0.7, 0.8, 0.9]}\n";
+  yaml.replace(yaml.find("planar"), 6, "spatial");
+  folder_.write("s.yaml", yaml);
+  ASSERT_EQ(run("simulate {}s.yaml -d 1 -o {}run.bag").status, 0);
+  ASSERT_EQ(run("simulate {}s.yaml -d 1 -o {}run.csv").status, 0);
+  folder_.write("same.py", R"(import sys
+sys.path.insert(0, 'scripts')
+import numpy
+import plot_run
+csv, bag = plot_run.read_csv(sys.argv[2], None), plot_run.read_bag(sys.argv[1], None)
+assert len(bag.time) == 100 and len(csv.time) == 101  # a bag begins after tick 0
+for name in 'xy', 'yaw', 'velocity', 'yaw_rate':
+    numpy.testing.assert_allclose(getattr(csv, name)[1:], getattr(bag, name), rtol=0, atol=1e-12)
+numpy.testing.assert_allclose(csv.time[1:], bag.time + 0.01, rtol=0, atol=1e-6)
+)");
+  const Outcome same = run("python3 -B {}same.py {}run.bag {}run.csv");
+  EXPECT_EQ(same.status, 0) << same.output;
+}
+
+TEST_F(Tools, PlotRunTakesOneOfSeveralFromACsv) {
+  ASSERT_EQ(run("simulate config/crates.yaml -d 0.5 -o {}crates.csv").status, 0);
+  const Outcome drawn = run("scripts/plot_run.py {}crates.csv --vehicle crate_a -o {}run.png");
+  EXPECT_EQ(drawn.status, 0) << drawn.output;
+  EXPECT_NE(drawn.output.find("vehicle           crate_a\n"), std::string::npos) << drawn.output;
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("run.png")));
+
+  const std::string header = "time,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n";
+  folder_.write("commands.csv", "time,rear,left,right\n0,1,0,0\n");
+  folder_.write("short.csv", header + "0,1\n");
+  folder_.write("nan.csv", header + "0,nan,0,0,0,0,0,1,0,0,0,0,0,0\n");
+  folder_.write("one.csv", header + "0,0,0,0,0,0,0,1,0,0,0,0,0,0\n");
+  folder_.write("errors.py", R"(import os, sys
+sys.path.insert(0, os.path.abspath('scripts'))
+os.chdir(os.path.dirname(sys.argv[0]))
+import plot_run
+for argument in sys.argv[1:]:
+    path, _, vehicle = argument.partition(':')
+    try:
+        plot_run.read_csv(path, vehicle or None)
+        print('no error')
+    except ValueError as error:
+        print(error)
+)");
+  const Outcome errors = run(
+      "python3 -B {}errors.py crates.csv crates.csv:boat commands.csv short.csv nan.csv one.csv "
+      "one.csv:boat");
+  EXPECT_EQ(errors.output,
+            "crates.csv: vehicles and loose bodies: crate_a, crate_b, hovercraft; choose one with "
+            "--vehicle\n"
+            "crates.csv: --vehicle boat: it holds crate_a, crate_b, hovercraft\n"
+            "commands.csv: the first line must be time,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz, with "
+            "or without vehicle after time\n"
+            "short.csv, line 2: 2 fields, but the first line has 14\n"
+            "nan.csv, line 2: a number is not finite\n"
+            "one.csv: fewer than two states\n"
+            "one.csv: --vehicle boat: there is no column vehicle, the file holds one craft\n");
 }
 
 TEST_F(Tools, MassPropertiesOfAMeshAndOfAScenario) {
@@ -240,6 +326,37 @@ TEST_F(Tools, HelpIsNoError) {
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.output.rfind(tool, 0), 0U) << outcome.output;
   }
+}
+
+// enter_ros is what each script calls before anything of ROS.
+TEST_F(Tools, ScriptsSayInOneLineThatTheirHostNameCannotBeResolved) {
+  const Outcome lost =
+      run("bash -c '. scripts/common.sh; ROS_HOSTNAME=no-such-host.invalid; enter_ros; echo on'");
+  EXPECT_EQ(lost.status, 1);
+  EXPECT_EQ(lost.output.rfind("bash: the name no-such-host.invalid cannot be resolved", 0), 0U)
+      << lost.output;
+  EXPECT_EQ(lost.output.find('\n'), lost.output.size() - 1) << lost.output;
+}
+
+TEST_F(Tools, ScriptsFindAFreePortWithoutAnyName) {
+  const Outcome port = run("bash -c '. scripts/common.sh; port=$(free_port); echo $port'");
+  EXPECT_EQ(port.status, 0);
+  EXPECT_GE(std::stoi(port.output), 1024) << port.output;
+  EXPECT_NE(contentOf("scripts/common.sh").find("bind((\"127.0.0.1\", 0))"), std::string::npos);
+}
+
+TEST_F(Tools, TheDemoRefusesCommandsThatAreNotThere) {
+  for (const char* arguments : {"'{}no such.csv'", "'{}no folder/c.csv'", "'{}'"}) {
+    const Outcome missing = run(std::string("scripts/demo ") + arguments);
+    EXPECT_EQ(missing.status, 1);
+    EXPECT_NE(missing.output.find(": there is no such file, or it cannot be read\n"),
+              std::string::npos)
+        << missing.output;
+    EXPECT_EQ(missing.output.find('\n'), missing.output.size() - 1) << missing.output;
+  }
+  const Outcome usage = run("scripts/demo config/manoeuvre.csv config/manoeuvre.csv");
+  EXPECT_EQ(usage.status, 1);
+  EXPECT_EQ(usage.output, "demo: usage: scripts/demo [COMMANDS.csv]\n");
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -19,21 +20,22 @@
 #include "hovercraft_sim/sim/compare.h"
 
 #include "../support/files.h"
+#include "../support/numbers.h"
 
 namespace hovercraft_ros {
 namespace {
 
 using hovercraft::Vector3;
+using hovercraft::testing::kRounding;
 using hovercraft::testing::messageOf;
 using hovercraft::testing::TestFolder;
 
-constexpr double kRounding = 1e-15;
 constexpr std::int64_t kEpochNs = 1700000000123456789;
-constexpr std::int64_t kStepNs = 2000000;
+constexpr std::int64_t kSampleStepNs = 2000000;
 
 ros::Time stampOfTick(std::int64_t tick) {
   ros::Time stamp;
-  stamp.fromNSec(static_cast<std::uint64_t>(kEpochNs + tick * kStepNs));
+  stamp.fromNSec(static_cast<std::uint64_t>(kEpochNs + tick * kSampleStepNs));
   return stamp;
 }
 
@@ -105,6 +107,42 @@ class TrajectoryFile : public ::testing::Test {
   std::string path_ = folder_.file("run.bag");
 };
 
+// A recorder that comes to a run that stands is given the state of that tick; then came a reset.
+TEST_F(TrajectoryFile, AStateAloneOfTheEpisodeBeforeIsLeftOut) {
+  write([](rosbag::Bag& bag) {
+    bag.write("/craft/state", stampOfTick(3), stateAt(17));
+    for (const std::int64_t tick : {5, 10, 20}) {
+      auto state = stateAt(tick);
+      state.episode = 1;
+      bag.write("/craft/state", stampOfTick(tick), state);
+    }
+  });
+  const auto samples = readTrajectories(path_).front().samples;
+  ASSERT_EQ(samples.size(), 3U);
+  EXPECT_EQ(samples.front().time_ns, 5 * kStepNs);
+  EXPECT_EQ(samples.back().time_ns, 20 * kStepNs);
+}
+
+// Where the stamp of tick 0 would be 0, which ROS takes for no time.
+TEST_F(TrajectoryFile, TickZeroMayHaveTheStampOfTickOne) {
+  for (const std::vector<std::int64_t>& ticks :
+       {std::vector<std::int64_t>{0, 10}, std::vector<std::int64_t>{0, 5, 10, 20}}) {
+    write([&](rosbag::Bag& bag) {
+      for (const std::int64_t tick : ticks) {
+        auto state = stateAt(tick);
+        state.header.stamp.fromNSec(
+            static_cast<std::uint64_t>(std::max<std::int64_t>(tick, 1) * kStepNs));
+        bag.write("/craft/state", state.header.stamp, state);
+      }
+    });
+    const auto samples = readTrajectories(path_).front().samples;
+    ASSERT_EQ(samples.size(), ticks.size());
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+      EXPECT_EQ(samples[i].time_ns, ticks[i] * kStepNs);
+    }
+  }
+}
+
 TEST_F(TrajectoryFile, PrefersStateAndCountsItsTimeFromTickZero) {
   write([](rosbag::Bag& bag) {
     for (const std::int64_t tick : {5, 10, 20}) {
@@ -118,8 +156,8 @@ TEST_F(TrajectoryFile, PrefersStateAndCountsItsTimeFromTickZero) {
   EXPECT_EQ(read[0].source, path_ + ": /craft/state, centre of mass");
   EXPECT_FALSE(read[0].holds_time_zero);
   ASSERT_EQ(read[0].samples.size(), 3U);
-  EXPECT_EQ(read[0].samples[0].time_ns, 5 * kStepNs);
-  EXPECT_EQ(read[0].samples[2].time_ns, 20 * kStepNs);
+  EXPECT_EQ(read[0].samples[0].time_ns, 5 * kSampleStepNs);
+  EXPECT_EQ(read[0].samples[2].time_ns, 20 * kSampleStepNs);
   EXPECT_EQ(read[0].samples[0].p_WB, Vector3(1.0, 2.0, 3.0));
   EXPECT_EQ(read[0].samples[0].v_WB, Vector3(4.0, 0.0, 0.0));
   EXPECT_EQ(read[0].samples[0].w_WB, Vector3(0.0, 0.0, 5.0));
@@ -133,7 +171,7 @@ TEST_F(TrajectoryFile, TurnsTheTwistOfOdometryIntoWorldAxes) {
   const auto read = readTrajectories(path_);
   ASSERT_EQ(read.size(), 1U);
   EXPECT_EQ(read[0].source, path_ + ": /craft/odom, base_link");
-  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + 5 * kStepNs);
+  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + 5 * kSampleStepNs);
   EXPECT_LT((read[0].samples[0].v_WB - Vector3(0.0, 4.0, 0.0)).norm(), 4.0 * kRounding);
   EXPECT_LT((read[0].samples[0].w_WB - Vector3(0.0, 5.0, 0.0)).norm(), 5.0 * kRounding);
 }
@@ -175,8 +213,8 @@ TEST_F(TrajectoryFile, WhatHasNoStateCountsFromTickZeroOfThoseThatHaveOne) {
   ASSERT_EQ(read.size(), 3U);
   for (const auto& trajectory : read) {
     ASSERT_EQ(trajectory.samples.size(), 3U);
-    EXPECT_EQ(trajectory.samples[0].time_ns, 5 * kStepNs) << trajectory.vehicle;
-    EXPECT_EQ(trajectory.samples[2].time_ns, 20 * kStepNs) << trajectory.vehicle;
+    EXPECT_EQ(trajectory.samples[0].time_ns, 5 * kSampleStepNs) << trajectory.vehicle;
+    EXPECT_EQ(trajectory.samples[2].time_ns, 20 * kSampleStepNs) << trajectory.vehicle;
   }
   // Two runs with ticks of their own have no time in common but that of their stamps.
   write([&fill](rosbag::Bag& bag) {
@@ -189,7 +227,7 @@ TEST_F(TrajectoryFile, WhatHasNoStateCountsFromTickZeroOfThoseThatHaveOne) {
   });
   const auto of_two = readTrajectories(path_);
   ASSERT_EQ(of_two[1].vehicle, "crate");
-  EXPECT_EQ(of_two[1].samples[0].time_ns, kEpochNs + 5 * kStepNs);
+  EXPECT_EQ(of_two[1].samples[0].time_ns, kEpochNs + 5 * kSampleStepNs);
 }
 
 /// A bag of `simulate` as if it had been recorded live: every stamp is later by one epoch.
@@ -239,7 +277,8 @@ TEST_F(TrajectoryFile, EachNamespaceIsATrajectory) {
   const auto read = readTrajectories(path_);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].vehicle, "alpha");
-  EXPECT_EQ(read[0].samples[0].time_ns, kEpochNs + kStepNs);  // one state does not tell the step
+  EXPECT_EQ(read[0].samples[0].time_ns,
+            kEpochNs + kSampleStepNs);  // one state does not tell the step
   EXPECT_EQ(read[1].vehicle, "fleet/beta");
 }
 
@@ -278,6 +317,7 @@ TEST_F(TrajectoryFile, EveryBadMessageIsNamedByTopicTimeAndRule) {
       "before it");
   check(
       [](rosbag::Bag& bag) {
+        bag.write("/craft/state", stampOfTick(0), stateAt(0));
         bag.write("/craft/state", stampOfTick(1), stateAt(1));
         auto state = stateAt(2);
         state.episode = 1;

@@ -200,6 +200,15 @@ TEST(VehicleMarkers, ObstaclesAndLooseBodiesAreDrawnWhereTheyAre) {
   }
 }
 
+TEST(VehicleMarkers, APrefixStandsBeforeTheFrameOfEach) {
+  std::vector<Marker> markers = craftMarkers(craft());
+  const std::string frame = markers.front().header.frame_id;
+  addPrefix("", markers);
+  EXPECT_EQ(markers.front().header.frame_id, frame);
+  addPrefix("fleet/red", markers);
+  for (const Marker& marker : markers) EXPECT_EQ(marker.header.frame_id, "fleet/red/" + frame);
+}
+
 TEST(VehicleMarkers, APathNeedsTwoPoints) {
   std::vector<geometry_msgs::Point> path(1);
   EXPECT_EQ(pathMarker(craft(), "map", path).action, Marker::DELETE);

@@ -15,7 +15,7 @@ namespace {
 using hovercraft::Simulation;
 using hovercraft::Vector3;
 
-const ros::Time kStamp(1234, 56000000);
+const ros::Time kStampOfAll(1234, 56000000);
 
 /// A spatial craft with its centre of mass off base_link's origin, some steps into a driven flight.
 Simulation flownSimulation() {
@@ -35,22 +35,48 @@ TEST(VehicleMessages, StampIsEpochPlusTimeInWholeNanoseconds) {
 
 TEST(VehicleMessages, EveryHeaderHasTheStampAndItsFrame) {
   const Simulation simulation = flownSimulation();
-  VehicleMessages messages(simulation.scenario(), 0, "map");
-  messages.fill(simulation, {kStamp});
+  VehicleMessages messages(simulation.scenario(), 0, {"map", ""});
+  messages.fill(simulation, {kStampOfAll});
   const std::vector<const std_msgs::Header*> in_world = {
       &messages.pose().header, &messages.odom().header, &messages.transform().header,
       &messages.state().header};
   for (const std_msgs::Header* header : in_world) {
-    EXPECT_EQ(header->stamp, kStamp);
+    EXPECT_EQ(header->stamp, kStampOfAll);
     EXPECT_EQ(header->frame_id, "map");
   }
   for (const std_msgs::Header* header : {&messages.twist().header, &messages.engines().header}) {
-    EXPECT_EQ(header->stamp, kStamp);
+    EXPECT_EQ(header->stamp, kStampOfAll);
     EXPECT_EQ(header->frame_id, "alpha/base_link");
   }
   EXPECT_EQ(messages.odom().child_frame_id, "alpha/base_link");
   EXPECT_EQ(messages.transform().child_frame_id, "alpha/base_link");
   EXPECT_EQ(messages.name(), "alpha");
+}
+
+TEST(VehicleMessages, EveryFrameButTheWorldHasThePrefix) {
+  const Simulation simulation = flownSimulation();
+  VehicleMessages messages(simulation.scenario(), 0, {"map", "fleet/red"});
+  messages.fill(simulation, {kStampOfAll});
+  for (const std_msgs::Header* header : {&messages.pose().header, &messages.odom().header,
+                                         &messages.transform().header, &messages.state().header}) {
+    EXPECT_EQ(header->frame_id, "map");
+  }
+  const std::string base = "fleet/red/alpha/base_link";
+  EXPECT_EQ(messages.twist().header.frame_id, base);
+  EXPECT_EQ(messages.engines().header.frame_id, base);
+  EXPECT_EQ(messages.appliedCommand({}, {kStampOfAll}).header.frame_id, base);
+  EXPECT_EQ(messages.odom().child_frame_id, base);
+  EXPECT_EQ(messages.transform().child_frame_id, base);
+  const auto engines = messages.engineFrames(kStampOfAll);
+  ASSERT_EQ(engines.size(), 3U);
+  for (const auto& engine : engines) EXPECT_EQ(engine.header.frame_id, base);
+  EXPECT_EQ(engines[0].child_frame_id, "fleet/red/alpha/engine_rear");
+  EXPECT_EQ(engines[1].child_frame_id, "fleet/red/alpha/engine_left");
+  EXPECT_EQ(engines[2].child_frame_id, "fleet/red/alpha/engine_right");
+  EXPECT_EQ(prefixOf(base, "alpha"), "fleet/red");
+  EXPECT_EQ(prefixOf("alpha/base_link", "alpha"), "");
+  EXPECT_EQ(prefixOf("beta/base_link", "alpha"), "");
+  EXPECT_EQ(prefixOf("", "alpha"), "");
 }
 
 TEST(VehicleMessages, TheWorldFrameIsCalledWorldIfNothingElseIsSaid) {
@@ -61,7 +87,7 @@ TEST(VehicleMessages, TheWorldFrameIsCalledWorldIfNothingElseIsSaid) {
 TEST(VehicleMessages, TheStateHasEveryNumberAsTheSimulationHoldsIt) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
-  messages.fill(simulation, {kStamp, 3, 7});
+  messages.fill(simulation, {kStampOfAll, 3, 7});
   const hovercraft_sim::State& state = messages.state();
   const hovercraft::Motion motion = simulation.motion(0);
   EXPECT_EQ(state.tick, 25U);
@@ -87,7 +113,7 @@ TEST(VehicleMessages, TheStateHasEveryNumberAsTheSimulationHoldsIt) {
 TEST(VehicleMessages, PoseOdomAndTransformAreThoseOfBaseLink) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
-  messages.fill(simulation, {kStamp});
+  messages.fill(simulation, {kStampOfAll});
   const HullMotion hull = hullMotion(simulation.motion(0), Vector3(0.01, 0.02, 0.03));
   EXPECT_NE(hull.p_WH, simulation.motion(0).p_WB);
   EXPECT_EQ(fromMessage(messages.pose().pose.position), hull.p_WH);
@@ -103,7 +129,7 @@ TEST(VehicleMessages, PoseOdomAndTransformAreThoseOfBaseLink) {
 TEST(VehicleMessages, EachEngineReportsForItself) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0);
-  messages.fill(simulation, {kStamp});
+  messages.fill(simulation, {kStampOfAll});
   EXPECT_EQ(messages.engines().rear, toMessage(simulation.engineReport(0, 0)));
   EXPECT_EQ(messages.engines().left, toMessage(simulation.engineReport(0, 1)));
   EXPECT_EQ(messages.engines().right, toMessage(simulation.engineReport(0, 2)));
@@ -118,8 +144,8 @@ TEST(VehicleMessages, AnAppliedCommandCarriesStampFrameEpisodeAndNumber) {
   VehicleMessages messages(simulation.scenario(), 0);
   const hovercraft::Command command = {
       25, 0, hovercraft::maskOf(hovercraft::EngineId::kLeft), {0.5, 1.0, 0.25}};
-  const hovercraft_sim::AppliedCommand message = messages.appliedCommand(command, {kStamp, 4});
-  EXPECT_EQ(message.header.stamp, kStamp);
+  const hovercraft_sim::AppliedCommand message = messages.appliedCommand(command, {kStampOfAll, 4});
+  EXPECT_EQ(message.header.stamp, kStampOfAll);
   EXPECT_EQ(message.header.frame_id, "alpha/base_link");
   EXPECT_EQ(message.episode, 4U);
   EXPECT_EQ(message.tick, 25U);
@@ -128,25 +154,25 @@ TEST(VehicleMessages, AnAppliedCommandCarriesStampFrameEpisodeAndNumber) {
   EXPECT_EQ(message.left, 1.0);
   EXPECT_EQ(message.right, 0.25);
   EXPECT_EQ(message.number, 1U);
-  EXPECT_EQ(messages.appliedCommand(command, {kStamp, 4}).number, 2U);
-  messages.fill(simulation, {kStamp, 4});
+  EXPECT_EQ(messages.appliedCommand(command, {kStampOfAll, 4}).number, 2U);
+  messages.fill(simulation, {kStampOfAll, 4});
   EXPECT_EQ(messages.state().commands, 2U);
-  messages.fill(simulation, {kStamp, 5});
+  messages.fill(simulation, {kStampOfAll, 5});
   EXPECT_EQ(messages.state().commands, 0U);
-  EXPECT_EQ(messages.appliedCommand(command, {kStamp, 5}).number, 1U);
+  EXPECT_EQ(messages.appliedCommand(command, {kStampOfAll, 5}).number, 1U);
 }
 
 TEST(VehicleMessages, EngineFramesLieAtTheEnginesAndPointAlongTheThrust) {
   const Simulation simulation = flownSimulation();
   const VehicleMessages messages(simulation.scenario(), 0);
-  const auto frames = messages.engineFrames(kStamp);
+  const auto frames = messages.engineFrames(kStampOfAll);
   ASSERT_EQ(frames.size(), 3U);
   const std::vector<std::string> names = {"alpha/engine_rear", "alpha/engine_left",
                                           "alpha/engine_right"};
   const std::vector<Vector3> positions = {{-0.25, 0, 0.05}, {0.2, 0.15, 0.05}, {0.2, -0.15, 0.05}};
   const std::vector<Vector3> directions = {{1, 0, 0}, {0, -1, 0}, {0, 0.6, 0.8}};
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    EXPECT_EQ(frames[i].header.stamp, kStamp);
+    EXPECT_EQ(frames[i].header.stamp, kStampOfAll);
     EXPECT_EQ(frames[i].header.frame_id, "alpha/base_link");
     EXPECT_EQ(frames[i].child_frame_id, names[i]);
     EXPECT_EQ(fromMessage(frames[i].transform.translation), positions[i]);

@@ -302,7 +302,7 @@ class ControlTest(unittest.TestCase):
             step = rospy.ServiceProxy('/doomed/hovercraft_sim/step', Step)
             caller = threading.Thread(target=lambda: answers.append(step(3600000)))
             caller.start()
-            wait_until(lambda: states, 'the first of the steps')
+            wait_until(lambda: states and states[-1].tick > 0, 'the first of the steps')
             node.send_signal(signal.SIGINT)
             caller.join(DEADLINE)
             self.assertEqual(node.wait(DEADLINE), 0)

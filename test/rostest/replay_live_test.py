@@ -25,7 +25,7 @@ from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
 
 TOPICS = ['/hovercraft/state', '/hovercraft/commands', '/hovercraft_sim/scenario', '/hovercraft_sim/events']
 WHOLE_TOPICS = TOPICS[1:]  # of the states some may be lost when the simulation flies as fast as it can
-TICKS = 3000    # of each episode at least
+TICKS = 1500    # of each episode at least: twice what the wrench lasts
 COMMANDS = 10   # in effect in each episode at least, however fast it is
 CUT_TICK = 1500
 CUT_SIZE = 100000  # bytes; several hundred states

@@ -58,6 +58,13 @@ class Recorder:
     def __init__(self, name, topics):
         self.name, self.topics = name, set(topics)
 
+    def runs(self):
+        """The master knows it: it has been started."""
+        try:
+            return bool(rosgraph.Master(rospy.get_name()).lookupNode(self.name))
+        except rosgraph.MasterException:
+            return False
+
     def listens(self):
         """The node has a connection to it for every topic; that the master knows of it is not enough."""
         return {wire.topic for wire in wires_of(SIMULATION) if wire.is_outgoing and wire.peer == self.name} >= self.topics

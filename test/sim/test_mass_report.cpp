@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/sim/mass_report.h"
 
 namespace hovercraft {
@@ -116,7 +117,7 @@ TEST(MassReport, TheVolumeOfAVehicleIsThatOfItsParts) {
   EXPECT_FALSE(bodies[0].volume.has_value());
   EXPECT_EQ(bodies[1].vehicle, "made");
   EXPECT_EQ(bodies[1].properties.mass, 7.0);
-  EXPECT_DOUBLE_EQ(bodies[1].volume.value(), 8.0 + 13.0 / 3.0 * 3.14159265358979323846);
+  EXPECT_DOUBLE_EQ(bodies[1].volume.value(), 8.0 + 13.0 / 3.0 * kPi);
 }
 
 TEST(MassReport, SeveralVehiclesAreKeyedByTheirNames) {

@@ -16,7 +16,7 @@ using testing::oneCraftYaml;
 using testing::scenarioOf;
 using testing::twoCraftYaml;
 
-constexpr double kRounding = 1e-12;
+constexpr double kRunRounding = 1e-12;
 
 Command commandAt(Tick tick, double rear, std::size_t vehicle = 0) {
   return {tick, vehicle, maskOf(EngineId::kRear), Vector3(rear, 0.0, 0.0)};
@@ -89,10 +89,10 @@ TEST(Run, ACommandActsFromItsTickUntilTheNextOne) {
   KeptStates states;
   run(simulation, commands, states, planOf(60));
   EXPECT_EQ(states.motions[10].twist.v_WB.x(), 0.0);
-  EXPECT_NEAR(states.motions[11].twist.v_WB.x(), 0.02, kRounding);
-  EXPECT_NEAR(states.motions[30].twist.v_WB.x(), 0.4, kRounding);
-  EXPECT_NEAR(states.motions[60].twist.v_WB.x(), 0.4, kRounding);
-  EXPECT_NEAR(states.motions[60].p_WB.x(), 0.04 + 0.4 * 0.3, kRounding);
+  EXPECT_NEAR(states.motions[11].twist.v_WB.x(), 0.02, kRunRounding);
+  EXPECT_NEAR(states.motions[30].twist.v_WB.x(), 0.4, kRunRounding);
+  EXPECT_NEAR(states.motions[60].twist.v_WB.x(), 0.4, kRunRounding);
+  EXPECT_NEAR(states.motions[60].p_WB.x(), 0.04 + 0.4 * 0.3, kRunRounding);
   ASSERT_EQ(states.commands.size(), 2U);
   EXPECT_EQ(states.commands[1].tick, 30);
 }
@@ -122,7 +122,7 @@ TEST(Run, ReportsEachEngineThatTimedOutOnceWithItsFirstTimeAndCount) {
   EXPECT_EQ(summary.timeouts[0].first_commanded, 3.0);
   // The craft says the same: thrust from 100 to 150 adds 3/2 · 0.5, and then nothing to 210.
   const double before = states.motions[100].twist.v_WB.x();
-  EXPECT_NEAR(states.motions[150].twist.v_WB.x(), before + 0.75, kRounding);
+  EXPECT_NEAR(states.motions[150].twist.v_WB.x(), before + 0.75, kRunRounding);
   EXPECT_EQ(states.motions[210].twist.v_WB.x(), states.motions[150].twist.v_WB.x());
 }
 
@@ -131,7 +131,7 @@ TEST(Run, ACommandAtTheVeryTickOfTheTimeOutComesInTime) {
   ListedCommands commands({commandAt(0, 2.0), commandAt(50, 2.0), commandAt(100, 2.0)});
   KeptStates states;
   EXPECT_TRUE(run(simulation, commands, states, planOf(150)).timeouts.empty());
-  EXPECT_NEAR(states.motions[150].twist.v_WB.x(), 1.5, kRounding);
+  EXPECT_NEAR(states.motions[150].twist.v_WB.x(), 1.5, kRunRounding);
 }
 
 TEST(Run, TellsTheVehiclesApart) {

@@ -203,22 +203,22 @@ TEST(ScenarioParser, MeshesAreFoundByRelativeAbsoluteAndPackagePaths) {
     return package == "shapes" ? folder : "";
   };
   const auto relative = parsed(withMesh("cube.obj")).vehicles[0].mass_properties;
-  const auto absolute = parseScenario(YAML::Load(withMesh(folder + "/cube.obj")), parameter_server)
-                            .vehicles[0]
-                            .mass_properties;
-  const auto package =
-      parseScenario(YAML::Load(withMesh("package://shapes/cube.obj")), parameter_server)
-          .vehicles[0]
-          .mass_properties;
+  const auto absolute =
+      parseScenario(withMesh(folder + "/cube.obj"), parameter_server).vehicles[0].mass_properties;
+  const auto package = parseScenario(withMesh("package://shapes/cube.obj"), parameter_server)
+                           .vehicles[0]
+                           .mass_properties;
   EXPECT_EQ(relative.mass, 2.0);
   for (const MassProperties& other : {absolute, package}) {
     EXPECT_EQ(other.mass, relative.mass);
     EXPECT_EQ(other.p_HB, relative.p_HB);
     EXPECT_EQ(other.I_BBo_B, relative.I_BBo_B);
   }
-  EXPECT_EQ(messageOf([&] { parseScenario(YAML::Load(withMesh("cube.obj")), parameter_server); }),
-            "/hovercraft: vehicles.alpha.parts[0].mesh.file = cube.obj: on the parameter server "
-            "must be a package:// URL or an absolute path");
+  EXPECT_EQ(
+      messageOf([&] { parseScenario(withMesh("cube.obj"), parameter_server); }),
+      "/hovercraft: vehicles.alpha.parts[0].mesh.file = cube.obj: is relative to no "
+      "folder: must be a package:// URL or an absolute path (or, for a node, give its parameter "
+      "scenario_dir)");
 }
 
 // ---- files --------------------------------------------------------------------------------------
@@ -258,7 +258,7 @@ TEST(ScenarioFile, OfSeveralDocumentsIsRefused) {
   const std::string file =
       folder.write("scenario.yaml", validScenario() + "---\n" + validScenario());
   EXPECT_EQ(messageOf([&] { loadScenario(file); }),
-            file + ": must be one YAML document; it holds 2");
+            file + ": line 19: must be one YAML document, and here a second one begins");
 }
 
 TEST(ScenarioFile, ThoseThatAreShippedParse) {

@@ -260,6 +260,25 @@ TEST(Simulation, PlanarCraftStaysInItsPlane) {
   EXPECT_EQ(motion.twist.w_WB.y(), 0.0);
 }
 
+// On a slope of angle a, with the plane of motion along it, gravity is (g sin a, 0, -g cos a): the
+// first part drives the craft, the second is the cushion's. Heun is exact for a parabola.
+TEST(Simulation, HorizontalGravityActsOnAPlanarCraftAsASlope) {
+  Scenario scenario = flatCraft();
+  scenario.vehicles[0].drag = Drag();
+  scenario.model = BodyModel::kPlanar;
+  scenario.integrator = Integrator::kHeun;
+  const double slope = 0.1;  // rad
+  scenario.gravity = {9.81 * std::sin(slope), -0.3, -9.81 * std::cos(slope)};
+  Simulation simulation(scenario);
+  const Motion start = simulation.motion(0);
+  while (simulation.timeNs() < kNanosecondsPerSecond) simulation.step();
+  const Motion end = simulation.motion(0);
+  const Vector3 along(9.81 * std::sin(slope), -0.3, 0.0);
+  EXPECT_LT(norm(end.twist.v_WB - (start.twist.v_WB + along)), 1e-12);
+  EXPECT_LT(norm(end.p_WB - (start.p_WB + start.twist.v_WB + 0.5 * along)), 1e-12);
+  EXPECT_LT(norm(end.twist.w_WB - start.twist.w_WB), 1e-14);  // it acts at the centre of mass
+}
+
 // Free fall: kinetic and potential energy, ½ m v² + m g z, and RK4 is exact for a parabola.
 TEST(Simulation, EnergyOfAFreeFallIsConstant) {
   Scenario scenario = parsed(validScenario());

@@ -16,7 +16,7 @@ namespace hovercraft_ros::testing {
 hovercraft::Scenario Recording::scenario() const {
   const auto texts = messages<std_msgs::String>(kScenarioTopic);
   if (texts.size() != 1) throw std::runtime_error("the bag must hold the scenario once");
-  return hovercraft::parseScenario(YAML::Load(texts[0].data), {kScenarioTopic, "", {}});
+  return hovercraft::parseScenario(texts[0].data, {kScenarioTopic, "", {}});
 }
 
 std::vector<hovercraft::Command> Recording::commands(const hovercraft::Scenario& scenario) const {

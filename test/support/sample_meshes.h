@@ -12,6 +12,8 @@
 
 namespace hovercraft::testing {
 
+inline const Vector3 kOne(1.0, 1.0, 1.0);
+
 /// The box with the corners `low` and `high`.
 inline TriangleMesh boxMesh(const Vector3& low, const Vector3& high) {
   TriangleMesh mesh;

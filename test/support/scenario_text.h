@@ -62,7 +62,7 @@ inline Scenario parsed(const std::string& text) {
   ScenarioSource source;
   source.name = "test.yaml";
   source.directory = "test/data";
-  return parseScenario(YAML::Load(text), source);
+  return parseScenario(text, source);
 }
 
 /// What parsing says.

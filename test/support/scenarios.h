@@ -33,7 +33,7 @@ inline std::string twoCraftYaml() {
 }
 
 inline Scenario scenarioOf(const std::string& yaml) {
-  return parseScenario(YAML::Load(yaml), {"test", "", {}});
+  return parseScenario(yaml, {"test", "", {}});
 }
 
 }  // namespace hovercraft::testing

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/vector.h"
@@ -89,7 +90,7 @@ inline Quaternion toQuaternion(const Matrix3& R_WB) {
 
 /// How a body answers forces: m⁻¹ and Î⁻¹ in B, both already restricted to the motions that its
 /// model allows.
-class Mobility {
+class HOVERCRAFT_PUBLIC Mobility {
  public:
   /// All six degrees of freedom. @param mass kg, > 0. @param I_BBo_B kg m², positive definite,
   /// about the centre of mass.

@@ -12,6 +12,16 @@
 /// on time keeps the order of the method. Every method ends by bringing the orientation back to a
 /// rotation.
 ///
+/// What their bits are. These are templates: a program that uses them compiles them with its own
+/// options, and they compute in the floating-point environment of its thread. They give the same
+/// bits everywhere (ARCHITECTURE.md, Determinism) if it is compiled without -ffast-math and its
+/// parts, with -ffp-contract=off, and, where fused multiply-add or AVX-512 is switched on
+/// (-march=native, -march=x86-64-v3, -mfma, -mavx512f), with -fno-tree-slp-vectorize: g++ 12 forms
+/// fused multiply-adds when it vectorises straight-line code, in spite of -ffp-contract=off. With
+/// other options a step is as exact, and its last bits are others. What Simulation computes does
+/// not depend on any of this, nor does integrationStep() of a DrivenHovercraft
+/// (hovercraft_model.h): both are compiled into the library.
+///
 /// gnu::flatten has the compiler inline the stages, derivative and all: the slopes stay in
 /// registers, and a step takes a quarter less time (bench/README.md). A compiler that does not know
 /// it ignores it.

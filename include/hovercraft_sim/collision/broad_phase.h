@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hovercraft_sim/collision/motion.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -12,7 +13,7 @@ namespace hovercraft {
 /// farthest apart. The order of the boxes along the axis is kept, so that a small change costs a
 /// small insertion sort. Pairs come sorted by index, whatever the boxes have been before: the same
 /// boxes give the same list.
-class BroadPhase {
+class HOVERCRAFT_PUBLIC BroadPhase {
  public:
   /// @returns the index of the new box: 0, 1, 2 ...
   int add(const AxisAlignedBox& box);

@@ -5,6 +5,7 @@
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
 #include "hovercraft_sim/geometry/feature.h"
 #include "hovercraft_sim/geometry/pose.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -51,7 +52,8 @@ struct ClosestFeatures {
 /// @param X_WA @param X_WB poses of the bodies, rotations orthonormal to rounding.
 /// @param last read as the start, written as the end.
 /// @throws std::logic_error if a pose is not finite.
-ClosestFeatures closestFeatures(const ConvexPolyhedron& A, const Pose& X_WA,
-                                const ConvexPolyhedron& B, const Pose& X_WB, FeaturePair& last);
+HOVERCRAFT_PUBLIC ClosestFeatures closestFeatures(const ConvexPolyhedron& A, const Pose& X_WA,
+                                                  const ConvexPolyhedron& B, const Pose& X_WB,
+                                                  FeaturePair& last);
 
 }  // namespace hovercraft

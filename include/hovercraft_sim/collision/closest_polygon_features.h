@@ -2,6 +2,7 @@
 
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/geometry/convex_polygon.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -30,8 +31,9 @@ struct ClosestPolygonFeatures {
 /// Where rounding keeps the walk from an answer all pairs are looked at: there is always one, and
 /// `excess` may then be more than kVoronoiSlack.
 /// @param last read as the start, written as the end.
-ClosestPolygonFeatures closestFeatures(const ConvexPolygon& A, const PlanarPose& X_WA,
-                                       const ConvexPolygon& B, const PlanarPose& X_WB,
-                                       FeaturePair& last);
+HOVERCRAFT_PUBLIC ClosestPolygonFeatures closestFeatures(const ConvexPolygon& A,
+                                                         const PlanarPose& X_WA,
+                                                         const ConvexPolygon& B,
+                                                         const PlanarPose& X_WB, FeaturePair& last);
 
 }  // namespace hovercraft

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hovercraft_sim/collision/closest_features.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -119,7 +120,6 @@ class FeatureWalk {
   Vector3 preciseVertexEdge(int x) const;
   bool moveVertex(int side);
 
-  static std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
   const Data::Vertex& vertex(int side) const {
     return body_[side]->vertices[at(feature_[at(side)].index)];
   }

@@ -3,6 +3,7 @@
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
 #include "hovercraft_sim/geometry/feature.h"
 #include "hovercraft_sim/geometry/pose.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -24,7 +25,7 @@ struct LeastOverlap {
 /// bodies overlap exactly if the result is positive; it is the depth then. Of a gap it is a lower
 /// bound, and less than the distance where that runs from a vertex to a vertex or an edge.
 /// No heap allocation; every loop is bounded by the number of features.
-LeastOverlap leastOverlap(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
-                          const Pose& X_WB);
+HOVERCRAFT_PUBLIC LeastOverlap leastOverlap(const ConvexPolyhedron& A, const Pose& X_WA,
+                                            const ConvexPolyhedron& B, const Pose& X_WB);
 
 }  // namespace hovercraft

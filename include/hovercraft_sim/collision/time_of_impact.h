@@ -2,6 +2,7 @@
 
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/collision/motion.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -43,16 +44,17 @@ struct TimeOfImpact {
 /// converge as Newton's do; else f' is bounded by the speed of the bodies' farthest points. Nothing
 /// tunnels: there is no sample between which something could happen.
 /// @throws std::logic_error if duration or tolerance are not positive.
-TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
-                          const ConvexPolyhedron& B, const StepMotion& motion_B,
-                          const ImpactSearch& search);
+HOVERCRAFT_PUBLIC TimeOfImpact timeOfImpact(const ConvexPolyhedron& A, const StepMotion& motion_A,
+                                            const ConvexPolyhedron& B, const StepMotion& motion_B,
+                                            const ImpactSearch& search);
 
 /// Whether the first bound of kAdvance shows already that there is no impact: two bodies that are
 /// far apart, or move alike, need no query at all. @param start their closest features at t = 0.
 /// @returns false if only a search can tell.
 /// @throws std::logic_error if duration or tolerance are not positive.
-bool isClear(const ConvexPolyhedron& A, const StepMotion& motion_A, const ConvexPolyhedron& B,
-             const StepMotion& motion_B, const ClosestFeatures& start, const ImpactSearch& search);
+HOVERCRAFT_PUBLIC bool isClear(const ConvexPolyhedron& A, const StepMotion& motion_A,
+                               const ConvexPolyhedron& B, const StepMotion& motion_B,
+                               const ClosestFeatures& start, const ImpactSearch& search);
 
 /// A fixed plane: normal · x = offset.
 struct Plane {
@@ -71,7 +73,7 @@ struct VertexImpact {
 /// fixed plane: the source's first step (physics.md 5), by bisection or by steps from rate and
 /// curvature; each finds the first of several contacts.
 /// @throws std::logic_error if duration or tolerance are not positive.
-VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion, const Plane& plane,
-                               const ImpactSearch& search);
+HOVERCRAFT_PUBLIC VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion,
+                                                 const Plane& plane, const ImpactSearch& search);
 
 }  // namespace hovercraft

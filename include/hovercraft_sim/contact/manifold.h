@@ -3,6 +3,7 @@
 #include <array>
 
 #include "hovercraft_sim/collision/closest_features.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -30,8 +31,8 @@ struct ContactManifold {
 /// farthest in eight directions. Two parallel edges give the ends of their common part. All else is
 /// the pair of closest points, which is a point in any case.
 /// @param closest of the bodies in these poses.
-ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
-                                const ConvexPolyhedron& B, const Pose& X_WB,
-                                const ClosestFeatures& closest, double band);
+HOVERCRAFT_PUBLIC ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
+                                                  const ConvexPolyhedron& B, const Pose& X_WB,
+                                                  const ClosestFeatures& closest, double band);
 
 }  // namespace hovercraft

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft {
 
 /// What a surface does when it meets another.
@@ -11,6 +13,6 @@ struct ContactMaterial {
 
 /// The law between two surfaces: the lesser restitution, the geometric mean of the frictions, and
 /// stick if either sticks. Symmetric in a and b.
-ContactMaterial combined(const ContactMaterial& a, const ContactMaterial& b);
+HOVERCRAFT_PUBLIC ContactMaterial combined(const ContactMaterial& a, const ContactMaterial& b);
 
 }  // namespace hovercraft

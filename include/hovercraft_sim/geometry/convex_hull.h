@@ -5,6 +5,7 @@
 
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
 #include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -14,7 +15,8 @@ namespace hovercraft {
 /// No point lies outside by more than kPlanarSlack of the greatest coordinate.
 /// @param name begins every message.
 /// @throws std::invalid_argument if the points are fewer than four, not finite or in one plane.
-ConvexPolyhedron convexHull(const std::vector<Vector3>& points, const std::string& name);
+HOVERCRAFT_PUBLIC ConvexPolyhedron convexHull(const std::vector<Vector3>& points,
+                                              const std::string& name);
 
 /// What to do with a mesh that is not convex.
 enum class NonConvexMesh { kRefuse, kTakeHull };
@@ -26,7 +28,8 @@ enum class NonConvexMesh { kRefuse, kTakeHull };
 /// @param mesh passes checkClosed(), unless its hull is taken. @param name begins every message.
 /// @throws std::invalid_argument naming the vertex farthest outside the plane of a triangle if the
 /// mesh is not convex and that is not wanted.
-ConvexPolyhedron polyhedronFromMesh(const TriangleMesh& mesh, NonConvexMesh choice,
-                                    const std::string& name);
+HOVERCRAFT_PUBLIC ConvexPolyhedron polyhedronFromMesh(const TriangleMesh& mesh,
+                                                      NonConvexMesh choice,
+                                                      const std::string& name);
 
 }  // namespace hovercraft

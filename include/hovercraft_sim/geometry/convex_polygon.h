@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hovercraft_sim/geometry/feature.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -31,7 +32,7 @@ inline double cross(const Vector2& a, const Vector2& b) {
 
 /// A convex polygon, counter-clockwise; edge i runs from vertex i to vertex i + 1. Invariants,
 /// checked when made: at least three vertices, none twice, every corner turns left, once around.
-class ConvexPolygon {
+class HOVERCRAFT_PUBLIC ConvexPolygon {
  public:
   struct Edge {
     Vector2 p;          // its first vertex
@@ -63,6 +64,6 @@ class ConvexPolygon {
 
 /// The convex hull of points of the plane (monotone chain, Andrew 1979), without points on its
 /// edges. @throws std::invalid_argument if they are not finite or lie on one line.
-ConvexPolygon convexHull(std::vector<Vector2> points);
+HOVERCRAFT_PUBLIC ConvexPolygon convexHull(std::vector<Vector2> points);
 
 }  // namespace hovercraft

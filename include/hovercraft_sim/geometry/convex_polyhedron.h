@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "hovercraft_sim/geometry/feature.h"
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -87,7 +89,7 @@ struct PolyhedronData {
 /// Faces are taken as they are given: two that lie in one plane stay two, and a vertex may lie on
 /// the line between its neighbours in a ring. It is convexHull() and polyhedronFromMesh() that make
 /// one face of what is coplanar and leave out the vertices on its edges.
-class ConvexPolyhedron {
+class HOVERCRAFT_PUBLIC ConvexPolyhedron {
  public:
   /// @param vertices m. @param rings the vertices of each face, counter-clockwise seen from
   /// outside.
@@ -122,8 +124,6 @@ class ConvexPolyhedron {
   std::size_t memory() const;
 
  private:
-  static std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
   PolyhedronData data_;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
@@ -8,6 +9,9 @@
 namespace hovercraft {
 
 using Rings = std::vector<std::vector<std::int32_t>>;
+
+/// @throws std::invalid_argument "convex polyhedron: REASON".
+[[noreturn]] void refusePolyhedron(const std::string& reason);
 
 /// Adjacency and planes from vertices and faces; checks what the rings alone can tell (indices,
 /// duplicates, closed surface).

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -27,12 +28,12 @@ struct TriangleMesh {
 /// volume computed from them is exact to some 6e-7, less so far from the origin of the file.
 /// @throws std::invalid_argument naming the file if it is missing, not readable, not a mesh, or
 /// without a triangle.
-TriangleMesh loadSurface(const std::string& path);
+HOVERCRAFT_PUBLIC TriangleMesh loadSurface(const std::string& path);
 
 /// The same of a body.
 /// @returns a mesh that passes checkClosed().
 /// @throws std::invalid_argument naming the file also if the surface is not closed.
-TriangleMesh loadTriangleMesh(const std::string& path);
+HOVERCRAFT_PUBLIC TriangleMesh loadTriangleMesh(const std::string& path);
 
 /// Checks that a mesh bounds a solid: it has triangles, each edge belongs to exactly two of them
 /// that run through it in opposite directions, and the enclosed volume is positive and known to 1 %
@@ -41,6 +42,6 @@ TriangleMesh loadTriangleMesh(const std::string& path);
 /// not cut itself is not checked.
 /// @param name begins every message, such as "mesh file 'hull.obj'".
 /// @throws std::invalid_argument that says what is wrong and where.
-void checkClosed(const TriangleMesh& mesh, const std::string& name);
+HOVERCRAFT_PUBLIC void checkClosed(const TriangleMesh& mesh, const std::string& name);
 
 }  // namespace hovercraft

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hovercraft_sim/geometry/triangle_mesh.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -17,9 +18,9 @@ struct VolumeMoments {
 /// to find the inertia tensor (or other mass properties) of a 3D solid body represented by a
 /// triangle mesh". The point is the centroid itself, so that nothing cancels far from the origin.
 /// @param mesh passes checkClosed(). @throws std::logic_error if its volume is not positive.
-VolumeMoments volumeMoments(const TriangleMesh& mesh);
+HOVERCRAFT_PUBLIC VolumeMoments volumeMoments(const TriangleMesh& mesh);
 
 /// The volume alone, m³: negative for a surface that is inside out, 0 for one without triangles.
-double signedVolume(const TriangleMesh& mesh);
+HOVERCRAFT_PUBLIC double signedVolume(const TriangleMesh& mesh);
 
 }  // namespace hovercraft

@@ -5,6 +5,7 @@
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/body/steppers.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -52,7 +53,7 @@ struct ThrustCourse {
 };
 
 /// Limits, lag and time-out of the three engines of one craft at a fixed step size.
-class EngineDynamics {
+class HOVERCRAFT_PUBLIC EngineDynamics {
  public:
   /// @param step_ns length of a step, ns, > 0.
   EngineDynamics(const std::array<EngineParameters, kEngineCount>& parameters,
@@ -93,7 +94,7 @@ class EngineDynamics {
 };
 
 /// From three thrusts to the wrench about the centre of mass: (33) to (37) as two 3×3 matrices.
-class EngineGeometry {
+class HOVERCRAFT_PUBLIC EngineGeometry {
  public:
   /// @param p_HB centre of mass in the hull frame, m.
   EngineGeometry(const std::array<EngineParameters, kEngineCount>& parameters, const Vector3& p_HB);

@@ -4,6 +4,7 @@
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/hovercraft/drag.h"
 #include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
 
@@ -64,5 +65,15 @@ struct DrivenHovercraft {
     return model.mobility.twist(state);
   }
 };
+
+/// integrationStep() of a craft, which Simulation makes: a function of the library, so that a
+/// program gets its bits whatever the program itself was compiled with.
+/// @param h s. The floating-point environment is that of IEEE 754 meanwhile.
+HOVERCRAFT_PUBLIC RigidBodyState<Quaternion> integrationStep(Integrator integrator,
+                                                             const RigidBodyState<Quaternion>& y,
+                                                             const DrivenHovercraft& f, double h);
+HOVERCRAFT_PUBLIC RigidBodyState<Matrix3> integrationStep(Integrator integrator,
+                                                          const RigidBodyState<Matrix3>& y,
+                                                          const DrivenHovercraft& f, double h);
 
 }  // namespace hovercraft

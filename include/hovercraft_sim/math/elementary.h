@@ -8,21 +8,23 @@
 /// correctly rounded bits. They cost microseconds: call them when a scenario is set up, never in a
 /// step.
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft {
 
 /// @param x any finite number.
-double exactExp(double x);
+HOVERCRAFT_PUBLIC double exactExp(double x);
 
 /// @param angle rad, finite.
-double exactSin(double angle);
+HOVERCRAFT_PUBLIC double exactSin(double angle);
 
 /// @param angle rad, finite.
-double exactCos(double angle);
+HOVERCRAFT_PUBLIC double exactCos(double angle);
 
 /// The angle of the point (x, y), rad in [-pi, pi].
-double exactAtan2(double y, double x);
+HOVERCRAFT_PUBLIC double exactAtan2(double y, double x);
 
 /// @param x in [-1, 1]. @returns rad in [-pi/2, pi/2].
-double exactAsin(double x);
+HOVERCRAFT_PUBLIC double exactAsin(double x);
 
 }  // namespace hovercraft

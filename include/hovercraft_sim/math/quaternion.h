@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
@@ -86,19 +87,19 @@ inline Matrix3 rotationMatrix(const Quaternion& q_WB) {
 /// The unit quaternion of a rotation matrix, with s >= 0 where s decides (Shepperd 1978: the
 /// largest of the four components is taken from the diagonal, so that nothing is divided by a small
 /// number).
-Quaternion quaternionFromMatrix(const Matrix3& R_WB);
+HOVERCRAFT_PUBLIC Quaternion quaternionFromMatrix(const Matrix3& R_WB);
 
 /// q = [cos θ/2, sin θ/2 u]. @param axis unit vector. @param theta rad.
-Quaternion quaternionFromAxisAngle(const Vector3& axis, double theta);
+HOVERCRAFT_PUBLIC Quaternion quaternionFromAxisAngle(const Vector3& axis, double theta);
 
 /// Fixed-axis roll, pitch, yaw in rad, as rotationFromRpy().
-Quaternion quaternionFromRpy(const Vector3& rpy);
+HOVERCRAFT_PUBLIC Quaternion quaternionFromRpy(const Vector3& rpy);
 
 /// Fixed-axis roll, pitch, yaw in rad of a unit quaternion; pitch in [-pi/2, pi/2].
-Vector3 rpyFromQuaternion(const Quaternion& q_WB);
+HOVERCRAFT_PUBLIC Vector3 rpyFromQuaternion(const Quaternion& q_WB);
 
 /// The angle of the rotation from a to b, rad in [0, pi]; accurate for small ones. For reports and
 /// tests.
-double angleBetween(const Quaternion& a, const Quaternion& b);
+HOVERCRAFT_PUBLIC double angleBetween(const Quaternion& a, const Quaternion& b);
 
 }  // namespace hovercraft

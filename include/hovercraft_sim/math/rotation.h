@@ -1,18 +1,19 @@
 #pragma once
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
 
 /// Elementary rotations (2), (3), (4) about the first, second and third axis; theta in rad,
 /// positive by the right-hand rule: rotationX(theta) is the source's R1, and so on.
-Matrix3 rotationX(double theta);
-Matrix3 rotationY(double theta);
-Matrix3 rotationZ(double theta);
+HOVERCRAFT_PUBLIC Matrix3 rotationX(double theta);
+HOVERCRAFT_PUBLIC Matrix3 rotationY(double theta);
+HOVERCRAFT_PUBLIC Matrix3 rotationZ(double theta);
 
 /// Fixed-axis roll, pitch, yaw in rad (REP 103): R = rotationZ(yaw) rotationY(pitch)
 /// rotationX(roll).
-Matrix3 rotationFromRpy(const Vector3& rpy);
+HOVERCRAFT_PUBLIC Matrix3 rotationFromRpy(const Vector3& rpy);
 
 /// The skew matrix of w (8): skew(w) r = w × r.
 inline Matrix3 skew(const Vector3& w) {
@@ -39,9 +40,9 @@ inline Matrix3 rotationRate(const Vector3& w_WB, const Matrix3& R_WB) {
 /// preferred.
 /// @param A a matrix near SO(3), det(A) > 0.
 /// @throws std::logic_error if A is singular, reflected or not finite.
-Matrix3 nearestRotation(const Matrix3& A);
+HOVERCRAFT_PUBLIC Matrix3 nearestRotation(const Matrix3& A);
 
 /// The largest entry of |RᵀR - 1|: 0 for a rotation.
-double orthogonalityError(const Matrix3& R);
+HOVERCRAFT_PUBLIC double orthogonalityError(const Matrix3& R);
 
 }  // namespace hovercraft

@@ -13,8 +13,16 @@
 
 namespace hovercraft {
 
-using Vector3 = Eigen::Vector3d;
-using Matrix3 = Eigen::Matrix3d;
+/// Eigen::Vector3d and Eigen::Matrix3d. The order of the columns is named, as a program may set
+/// another default (EIGEN_DEFAULT_TO_ROW_MAJOR).
+using Vector3 = Eigen::Matrix<double, 3, 1, Eigen::ColMajor>;
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::ColMajor>;
+
+// Library and program must agree where the members of a class lie, whatever each was compiled with.
+// Eigen aligns what fills whole registers, such as Vector4d, Matrix4d or Quaterniond, as the
+// instruction set and macros say: no public class has a member of such a type.
+static_assert(sizeof(Vector3) == 3 * sizeof(double) && alignof(Vector3) == alignof(double));
+static_assert(sizeof(Matrix3) == 9 * sizeof(double) && alignof(Matrix3) == alignof(double));
 
 /// a · b
 inline double dot(const Vector3& a, const Vector3& b) {

@@ -7,15 +7,17 @@
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// True if the file exists and begins as a bag does.
-bool isBag(const std::string& path);
+HOVERCRAFT_PUBLIC bool isBag(const std::string& path);
 
 /// Opens a bag for reading.
 /// @throws std::invalid_argument that names the file and the reason: not there, not a bag, without
 /// an index.
-void openForReading(rosbag::Bag& bag, const std::string& path);
+HOVERCRAFT_PUBLIC void openForReading(rosbag::Bag& bag, const std::string& path);
 
 /// Throws std::invalid_argument: "file: topic at stamp s: rule", the stamp being when the message
 /// was received.

@@ -10,6 +10,7 @@
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/body_messages.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/output_file.h"
@@ -20,7 +21,7 @@ namespace hovercraft_ros {
 /// Writes a run into a bag with the topics of the node (design: ROS interface), stamped and
 /// received at n·h. ROS takes time 0 for no time: the state of tick 0 is left out, and what takes
 /// effect then (commands, static transforms, the scenario) is recorded at tick 1.
-class BagWriter : public hovercraft::StateSink {
+class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
   BagWriter(const std::string& path, const hovercraft::Scenario& scenario);
@@ -44,9 +45,10 @@ class BagWriter : public hovercraft::StateSink {
   ros::Time stampOfTick(hovercraft::Tick tick) const;
   std::string topic(const VehicleMessages& messages, const char* name) const;
   void writeConstants(const hovercraft::Scenario& scenario);
+  // Hidden: instances of a template stay in the library (export.h).
   template <class Message>
-  void write(const std::string& topic, const ros::Time& stamp, const Message& message,
-             bool latched = false);
+  [[gnu::visibility("hidden")]] void write(const std::string& topic, const ros::Time& stamp,
+                                           const Message& message, bool latched = false);
 
   hovercraft::PartialFile file_;
   std::unique_ptr<rosbag::Bag, BagDeleter> bag_;

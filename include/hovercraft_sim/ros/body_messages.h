@@ -10,17 +10,18 @@
 #include <hovercraft_sim/Contact.h>
 #include <ros/time.h>
 
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/ros/tf_frames.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros {
 
-/// Pose and transform of one loose body at one tick: of its frame `<name>/base_link`, in which its
-/// parts are placed.
-class BodyMessages {
+/// Pose and transform of one loose body at one tick: of its frame `<name>/base_link` (see
+/// TfFrames), in which its parts are placed.
+class HOVERCRAFT_PUBLIC BodyMessages {
  public:
   /// @param body index into the loose bodies of the scenario's world.
-  BodyMessages(const hovercraft::Scenario& scenario, std::size_t body,
-               const std::string& world_frame);
+  BodyMessages(const hovercraft::Scenario& scenario, std::size_t body, const TfFrames& frames);
 
   void fill(const hovercraft::Simulation& simulation, const ros::Time& stamp);
 
@@ -36,12 +37,13 @@ class BodyMessages {
 };
 
 /// Of all loose bodies of a scenario.
-std::vector<BodyMessages> bodyMessages(const hovercraft::Scenario& scenario,
-                                       const std::string& world_frame);
+HOVERCRAFT_PUBLIC std::vector<BodyMessages> bodyMessages(const hovercraft::Scenario& scenario,
+                                                         const TfFrames& frames);
 
 /// @param epoch_ns of tick 0 of the episode. An event at time 0, which ROS takes for no time, gets
 /// 1 ns.
-hovercraft_sim::Contact toMessage(const hovercraft::ContactEvent& event, std::int64_t epoch_ns,
-                                  std::uint32_t episode, const std::string& world_frame);
+HOVERCRAFT_PUBLIC hovercraft_sim::Contact toMessage(const hovercraft::ContactEvent& event,
+                                                    std::int64_t epoch_ns, std::uint32_t episode,
+                                                    const std::string& world_frame);
 
 }  // namespace hovercraft_ros

@@ -5,12 +5,14 @@
 
 #include <ros/time.h>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// Publishes simulated time on /clock, seldom enough for Python nodes: once per period of simulated
 /// time, and never more often than NodeConfig::kMaxClockRate of wall time. Never time 0, which ROS
 /// takes for "no time".
-class ClockSource {
+class HOVERCRAFT_PUBLIC ClockSource {
  public:
   /// @param publish sends a time on /clock. @param rate Hz of simulated time, checked.
   ClockSource(std::function<void(const ros::Time&)> publish, double rate);

@@ -10,6 +10,7 @@
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/scenario.h"
@@ -20,7 +21,7 @@ namespace hovercraft_ros {
 /// through the episodes: a reset or a load takes no time, as ROS time goes on. Where ticks go back
 /// without a new episode (the simulation was started again) it goes on from the first state of the
 /// new run.
-class PlayedTime {
+class HOVERCRAFT_PUBLIC PlayedTime {
  public:
   explicit PlayedTime(std::int64_t step_ns) : step_ns_(step_ns) {}
 
@@ -41,7 +42,7 @@ class PlayedTime {
 /// commands is the first state that it hears. The last thrusts are repeated well within the
 /// time-outs of the engines. A reset or a load does not stop it: the commands go on in the new
 /// episode at the simulated time at which they were, with the thrusts that hold then.
-class CommandPlayer {
+class HOVERCRAFT_PUBLIC CommandPlayer {
  public:
   /// @param handle of the namespace that the craft's namespaces lie in.
   /// @param settle_ns simulated time to wait after the last command, with the thrusts held, ns.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/scenario.h"
 
@@ -15,7 +16,7 @@ namespace hovercraft_ros {
 /// accepted), those are played at the ticks that they name. Else `/<vehicle>/thrust`
 /// (ThrustCommand) and `/<vehicle>/thrust/rear`, `left`, `right` (Float64) are: each takes effect
 /// at the first tick at or after the time from the first message of the bag to its own receipt.
-class BagCommandSource : public hovercraft::CommandSource {
+class HOVERCRAFT_PUBLIC BagCommandSource : public hovercraft::CommandSource {
  public:
   /// @throws std::invalid_argument if the file is not a bag or has no command of a vehicle.
   BagCommandSource(const std::string& path, const hovercraft::Scenario& scenario);

@@ -13,6 +13,7 @@
 #include <hovercraft_sim/ThrustCommand.h>
 
 #include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/vector.h"
 #include "hovercraft_sim/sim/command_log.h"
@@ -22,12 +23,12 @@
 
 namespace hovercraft_ros {
 
-geometry_msgs::Vector3 toVector3Message(const hovercraft::Vector3& v);
-geometry_msgs::Point toPointMessage(const hovercraft::Vector3& p);
-geometry_msgs::Quaternion toQuaternionMessage(const hovercraft::Quaternion& q);
-hovercraft::Vector3 fromMessage(const geometry_msgs::Vector3& v);
-hovercraft::Vector3 fromMessage(const geometry_msgs::Point& p);
-hovercraft::Quaternion fromMessage(const geometry_msgs::Quaternion& q);
+HOVERCRAFT_PUBLIC geometry_msgs::Vector3 toVector3Message(const hovercraft::Vector3& v);
+HOVERCRAFT_PUBLIC geometry_msgs::Point toPointMessage(const hovercraft::Vector3& p);
+HOVERCRAFT_PUBLIC geometry_msgs::Quaternion toQuaternionMessage(const hovercraft::Quaternion& q);
+HOVERCRAFT_PUBLIC hovercraft::Vector3 fromMessage(const geometry_msgs::Vector3& v);
+HOVERCRAFT_PUBLIC hovercraft::Vector3 fromMessage(const geometry_msgs::Point& p);
+HOVERCRAFT_PUBLIC hovercraft::Quaternion fromMessage(const geometry_msgs::Quaternion& q);
 
 /// Motion of the hull frame H (base_link), which differs from the body frame B by the place of the
 /// centre of mass.
@@ -39,21 +40,25 @@ struct HullMotion {
 };
 
 /// @param p_HB the centre of mass in H, m.
-HullMotion hullMotion(const hovercraft::Motion& motion, const hovercraft::Vector3& p_HB);
+HOVERCRAFT_PUBLIC HullMotion hullMotion(const hovercraft::Motion& motion,
+                                        const hovercraft::Vector3& p_HB);
 
 /// The orientation of a frame whose x axis points along `direction` (a unit vector): the shortest
 /// turn from x.
-hovercraft::Quaternion turnFromX(const hovercraft::Vector3& direction);
+HOVERCRAFT_PUBLIC hovercraft::Quaternion turnFromX(const hovercraft::Vector3& direction);
 
-hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report);
-hovercraft_sim::AppliedCommand toMessage(const hovercraft::Command& command);
+HOVERCRAFT_PUBLIC hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report);
+HOVERCRAFT_PUBLIC hovercraft_sim::AppliedCommand toMessage(const hovercraft::Command& command);
 
 /// The command that a message asks for at `tick`; nothing if a thrust is not finite.
-std::optional<hovercraft::Command> toCommand(const hovercraft_sim::ThrustCommand& message,
-                                             std::size_t vehicle, hovercraft::Tick tick);
-std::optional<hovercraft::Command> toCommand(double thrust, hovercraft::EngineId engine,
-                                             std::size_t vehicle, hovercraft::Tick tick);
+HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
+    const hovercraft_sim::ThrustCommand& message, std::size_t vehicle, hovercraft::Tick tick);
+HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(double thrust,
+                                                               hovercraft::EngineId engine,
+                                                               std::size_t vehicle,
+                                                               hovercraft::Tick tick);
 /// The command that was recorded, to be applied at its own tick.
-hovercraft::Command toCommand(const hovercraft_sim::AppliedCommand& message, std::size_t vehicle);
+HOVERCRAFT_PUBLIC hovercraft::Command toCommand(const hovercraft_sim::AppliedCommand& message,
+                                                std::size_t vehicle);
 
 }  // namespace hovercraft_ros

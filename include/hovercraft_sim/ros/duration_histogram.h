@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// Quantiles of many durations in constant memory: buckets that grow by an eighth, from 8 ns to 146
 /// years. A quantile is exact to one bucket (12.5 %); count and maximum are exact.
-class DurationHistogram {
+class HOVERCRAFT_PUBLIC DurationHistogram {
  public:
   /// @param duration_ns negative counts as 0.
   void add(std::int64_t duration_ns);

@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include <hovercraft_sim/ScheduleCommands.h>
 #include <hovercraft_sim/State.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/trajectory.h"
@@ -22,10 +24,10 @@ namespace hovercraft_ros {
 /// command, and keeps every state that the simulation publishes. For tests of packages that fly
 /// with the simulation (flight_test.h).
 ///
-/// In lockstep the result does not depend on the load of the machine: commands that fall on ends of
-/// control periods, but for tick 0, act at the ticks at which `simulate` applies them, and the
-/// states have the same bits.
-class Flight {
+/// Commands are handed to the simulation before it flies (~schedule) and act at the ticks at which
+/// `simulate` applies them, in lockstep or not, on the control grid or off it, whatever the load of
+/// the machine: the states have the same bits.
+class HOVERCRAFT_PUBLIC Flight {
  public:
   /// Waits for the simulation and takes it back to its start, where it stays paused.
   /// @param node name of the simulation's node; the craft lie in the same namespace.
@@ -35,8 +37,10 @@ class Flight {
   Flight& operator=(const Flight&) = delete;
 
   /// Plays the commands of a file (.csv, or .bag with commands or thrusts), goes on for `settle` s
-  /// of simulated time after the last of them, and pauses. Each craft is sent its thrusts again
-  /// with every state, so that no engine times out.
+  /// of simulated time after the last of them, and pauses. Times count from the flight's start;
+  /// what lies before the present tick acts at once. Thrusts are repeated, so that no engine times
+  /// out
+  /// (`simulate --hold`).
   /// @throws std::invalid_argument about the file; std::runtime_error if simulated time stands
   /// still for half a minute.
   void play(const std::string& commands, double settle = 1.0);
@@ -48,15 +52,20 @@ class Flight {
   const std::vector<hovercraft::Trajectory>& trajectories() const { return trajectories_; }
 
  private:
+  /// What answers the states in lockstep.
   struct Played {
     std::unique_ptr<hovercraft::CommandSource> source;
     std::optional<hovercraft::Command> next;
     std::vector<hovercraft::Vector3> thrusts;  // by vehicle, N
-    hovercraft::Tick last = 0;                 // tick of the last command
   };
 
   hovercraft::Scenario receiveScenario() const;
   void call(const std::string& service) const;
+  hovercraft_sim::ScheduleCommands::Response schedule(
+      const hovercraft_sim::ScheduleCommands::Request& commands) const;
+  hovercraft::Tick scheduleAll(const std::string& commands, hovercraft::Tick now,
+                               hovercraft::Tick settle);
+  void answerStates(const std::string& commands);
   void connect();
   void onState(std::size_t vehicle, const hovercraft_sim::State& state);
   void answer(std::size_t vehicle, const hovercraft_sim::State& state);
@@ -88,7 +97,8 @@ struct FlightVerdict {
 /// reference from the flight's first state on, interpolating where the flight has no state of that
 /// time. A flight that ends before its reference does not follow it.
 /// @throws std::invalid_argument about the reference.
-FlightVerdict judge(const std::vector<hovercraft::Trajectory>& flown, const std::string& reference,
-                    const FlightTolerance& tolerance);
+HOVERCRAFT_PUBLIC FlightVerdict judge(const std::vector<hovercraft::Trajectory>& flown,
+                                      const std::string& reference,
+                                      const FlightTolerance& tolerance);
 
 }  // namespace hovercraft_ros

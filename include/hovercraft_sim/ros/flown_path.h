@@ -7,12 +7,14 @@
 #include <geometry_msgs/Point.h>
 #include <ros/time.h>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// The path of one craft as it is drawn, without a line across what was not flown: it begins anew
 /// with each episode (a reset, a load) and where stamps go back (a bag is played again). Poses and
 /// states come on topics of their own, so each may be heard before the other.
-class FlownPath {
+class HOVERCRAFT_PUBLIC FlownPath {
  public:
   /// A state was heard. @param stamp of the tick, which a pose of the same tick has too.
   void enter(std::uint32_t episode, const ros::Time& stamp);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tf2_msgs/TFMessage.h>
 #include <vector>
 
 #include <hovercraft_sim/RunEvent.h>
@@ -12,12 +13,15 @@
 #include <ros/publisher.h>
 #include <ros/wall_timer.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/body_messages.h"
 #include "hovercraft_sim/ros/clock_source.h"
+#include "hovercraft_sim/ros/command_schedule.h"
+#include "hovercraft_sim/ros/graph_watch.h"
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/lockstep.h"
+#include "hovercraft_sim/ros/newcomer_publisher.h"
 #include "hovercraft_sim/ros/node_config.h"
 #include "hovercraft_sim/ros/pace_report.h"
 #include "hovercraft_sim/ros/pacer.h"
@@ -30,7 +34,7 @@ namespace hovercraft_ros {
 /// the world; between steps it waits on the callback queue, so that a message or a service is
 /// handled at once, also while the simulation is paused. It wakes for the ticks that something is
 /// published at, and makes the steps before them together.
-class HovercraftNode {
+class HOVERCRAFT_PUBLIC HovercraftNode {
  public:
   /// @param handle of the namespace that the craft's namespaces lie in. @param private_handle the
   /// node's own.
@@ -55,6 +59,8 @@ class HovercraftNode {
   /// @param wanted one that breaks isRealTimeFactor() is refused with a warning.
   /// @returns the factor that the node has now.
   double changeRealTimeFactor(double wanted);
+  /// Takes commands that act at ticks to come. @param commands of ticks that are not past.
+  void schedule(const std::vector<hovercraft::Command>& commands) { schedule_.add(commands); }
   /// Steps now, whatever the pace. @throws std::runtime_error if the node is shut down meanwhile.
   void stepPaused(std::uint32_t steps);
   /// Applies and publishes an event. @throws std::invalid_argument as applyEvent(); nothing has
@@ -62,9 +68,15 @@ class HovercraftNode {
   void apply(const hovercraft_sim::RunEvent& event);
 
  private:
+  void addVehicle(const ros::NodeHandle& handle, std::size_t vehicle);
+  void addBody(const ros::NodeHandle& handle, std::size_t body);
+  void addReports(ros::NodeHandle& own);
+  void advertiseTransforms(ros::NodeHandle handle);
+  Claims claims() const;
   void publishConstants();
   void setRealTimeFactor(double real_time_factor);
   void restartPace();
+  bool stands() const;
   bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
   const char* take(hovercraft::Command command, const std::optional<ros::Time>& stamp);
   hovercraft::Tick nextVisibleTick() const;
@@ -72,7 +84,9 @@ class HovercraftNode {
   void advance();
   bool isStepDue(std::int64_t now_ns) const;
   void stepOnce();
+  void pushScheduled();
   void awaitCommands();
+  void gatherTransforms();
   void publishState();
   void noticeSilence(std::int64_t now_ns);
   void report();
@@ -81,17 +95,19 @@ class HovercraftNode {
   NodeConfig config_;
   LiveRun run_;
   Lockstep lockstep_;
+  CommandSchedule schedule_;
   std::optional<Pacer> pacer_;  // none: as fast as it can
   std::optional<ClockSource> clock_;
   bool paused_;
   std::vector<std::unique_ptr<VehicleInterface>> vehicles_;
-  std::vector<BodyMessages> bodies_;        // loose ones
-  std::vector<ros::Publisher> body_poses_;  // of each
+  std::vector<BodyMessages> bodies_;                                       // loose ones
+  std::vector<NewcomerPublisher<geometry_msgs::PoseStamped>> body_poses_;  // of each
   ros::Publisher contacts_;
   ros::Publisher scenario_, events_, telemetry_;
-  tf2_ros::TransformBroadcaster transforms_;
+  NewcomerPublisher<tf2_msgs::TFMessage> transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
-  std::vector<geometry_msgs::TransformStamped> transform_batch_;
+  tf2_msgs::TFMessage transforms_message_;
+  std::optional<GraphWatch> graph_watch_;
 
   PaceReport pace_;
   hovercraft_sim::Telemetry telemetry_message_;

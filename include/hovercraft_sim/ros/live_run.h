@@ -6,6 +6,7 @@
 #include <hovercraft_sim/RunEvent.h>
 #include <ros/time.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -14,7 +15,7 @@ namespace hovercraft_ros {
 /// A simulation in ROS time: ticks, episodes and stamps. Stamps are epoch + n·h and never go back:
 /// a reset or a load begins an episode with ticks of its own, whose epoch is chosen so that time
 /// goes on from where it was.
-class LiveRun {
+class HOVERCRAFT_PUBLIC LiveRun {
  public:
   /// @param epoch_ns ROS time of tick 0 of the first episode, ns.
   LiveRun(hovercraft::Scenario scenario, std::int64_t epoch_ns);

@@ -6,12 +6,14 @@
 
 #include <ros/time.h>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// Who still owes a command before the world may go on: after the states of a stamp were published,
 /// one ThrustCommand with that very stamp from every vehicle. What arrives when, and how often, no
 /// longer matters to the result.
-class Lockstep {
+class HOVERCRAFT_PUBLIC Lockstep {
  public:
   explicit Lockstep(std::size_t vehicles) : owes_(vehicles, false) {}
 

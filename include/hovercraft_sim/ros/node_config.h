@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string>
-#include <yaml-cpp/yaml.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/ros/tf_frames.h"
+#include "hovercraft_sim/sim/config_node.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros {
@@ -12,18 +14,18 @@ namespace hovercraft_ros {
 struct NodeConfig {
   hovercraft::Scenario scenario;
   hovercraft::Tick publish_every = 1;  // ticks from one published state to the next
-  std::string world_frame;
-  double real_time_factor = 1.0;  // simulated per wall time; 0: as fast as it can
-  bool paused = false;            // at the start
-  bool clock = false;             // publish /clock and be the time source, from time 0
-  double clock_rate = 100.0;      // Hz of simulated time; never above kMaxClockRate of wall time
+  TfFrames frames;                     // parameters world_frame, tf_prefix
+  double real_time_factor = 1.0;       // simulated per wall time; 0: as fast as it can
+  bool paused = false;                 // at the start
+  bool clock = false;                  // publish /clock and be the time source, from time 0
+  double clock_rate = 100.0;  // Hz of simulated time; never above kMaxClockRate of wall time
   bool lockstep = false;
   hovercraft::Tick control_period = 1;  // ticks between two commands in lockstep
   double lockstep_timeout = 5.0;        // s of wall time until a silent vehicle is named
   double diagnostic_period = 1.0;       // s of wall time between two reports
 
-  static constexpr double kMaxRealTimeFactor =
-      1000.0;  // that of dynamic_reconfigure (cfg/Pace.cfg)
+  // A greater factor than any machine reaches; 0 means as fast as it can.
+  static constexpr double kMaxRealTimeFactor = 1000.0;
   // A smaller factor than this, which takes days for a second, is a slip; 0 means something else.
   static constexpr double kMinRealTimeFactor = 1e-6;
   static constexpr double kMinClockRate = 0.001;  // Hz: seldom enough for anyone
@@ -34,15 +36,18 @@ struct NodeConfig {
 };
 
 /// A real-time factor that a run can have: 0, or kMinRealTimeFactor to kMaxRealTimeFactor.
-bool isRealTimeFactor(double factor);
-extern const char* const kRealTimeFactorRuleText;
+HOVERCRAFT_PUBLIC bool isRealTimeFactor(double factor);
+extern HOVERCRAFT_PUBLIC const char* const kRealTimeFactorRuleText;
 
-/// @param parameters the node's private namespace as a tree: `scenario` (design: scenario file),
+/// @param parameters the node's private namespace (parameterTree): `scenario`, the text of a
+/// scenario file, with `scenario_dir`, the absolute path that its relative mesh paths start from;
+/// or `scenario_file`, the absolute path of one; `set`, overrides of either (withOverrides);
 /// `publish_rate` in Hz (a divisor of the step rate; default the nearest to 100),
 /// `control_period` in s (a multiple of the step size; default the publish period; an error without
-/// `lockstep`), and what the other members of NodeConfig are called.
+/// `lockstep`), `world_frame` and `tf_prefix`, and what the other members of NodeConfig are called.
 /// @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
-NodeConfig parseNodeConfig(const YAML::Node& parameters, const std::string& node_name);
+HOVERCRAFT_PUBLIC NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters,
+                                             const std::string& node_name);
 
 }  // namespace hovercraft_ros

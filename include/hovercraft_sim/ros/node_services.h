@@ -5,14 +5,16 @@
 #include <ros/node_handle.h>
 #include <ros/service_server.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/hovercraft_node.h"
 
 namespace hovercraft_ros {
 
-/// The services that steer a run: ~pause ~resume ~step ~reset ~set_state ~apply_wrench ~save ~load.
+/// The services that steer a run: ~pause ~resume ~step ~reset ~set_state ~apply_wrench
+/// ~schedule ~save ~load.
 /// A request that cannot be met is answered with success = false and the reason; it changes
 /// nothing.
-class NodeServices {
+class HOVERCRAFT_PUBLIC NodeServices {
  public:
   /// @param node outlives this object.
   NodeServices(const ros::NodeHandle& private_handle, HovercraftNode& node);

@@ -5,12 +5,13 @@
 
 #include <hovercraft_sim/Telemetry.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/duration_histogram.h"
 
 namespace hovercraft_ros {
 
 /// How a run kept its pace since the last report.
-class PaceReport {
+class HOVERCRAFT_PUBLIC PaceReport {
  public:
   /// @param duration_ns of the step with what it published.
   void addStep(std::int64_t duration_ns) { step_times_.add(duration_ns); }
@@ -36,7 +37,7 @@ class PaceReport {
 };
 
 /// The same figures for /diagnostics.
-void toDiagnostics(const hovercraft_sim::Telemetry& telemetry,
-                   diagnostic_updater::DiagnosticStatusWrapper& status);
+HOVERCRAFT_PUBLIC void toDiagnostics(const hovercraft_sim::Telemetry& telemetry,
+                                     diagnostic_updater::DiagnosticStatusWrapper& status);
 
 }  // namespace hovercraft_ros

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 
 namespace hovercraft_ros {
@@ -13,7 +14,7 @@ using hovercraft::Tick;
 ///   deadline(n) = origin + (n - first tick) · h / real-time factor.
 /// A pure function of the clock readings that it is given (ns, any epoch). The step size never
 /// changes: who falls behind by more than the bound lets wall time go instead.
-class Pacer {
+class HOVERCRAFT_PUBLIC Pacer {
  public:
   /// Backlog (ns) that is caught up; what lies beyond is given up.
   static constexpr std::int64_t kMaxBacklogNs = 100000000;

@@ -2,16 +2,20 @@
 
 #include <XmlRpcValue.h>
 #include <string>
-#include <yaml-cpp/yaml.h>
+
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/sim/config_node.h"
 
 namespace hovercraft_ros {
 
-/// A value of the parameter server as the tree that a scenario file is parsed into: numbers keep
-/// every bit (17 digits), so that a scenario loaded by <rosparam> and one read from its file are
-/// the same.
-/// @param source name of the parameter, the beginning of an error.
-/// @throws std::invalid_argument with the key path for a type that has no place in a scenario
-/// (binary, date).
-YAML::Node toYaml(const XmlRpc::XmlRpcValue& value, const std::string& source);
+/// The parameters of a node, of which each is a number, true or false, or a text: as texts. A text
+/// counts as one without quotes, as roslaunch makes a text of `1e1` and `yes`. What is a tree or a
+/// list on the server is an empty map or list here: no parameter of ours is one, and what a
+/// scenario file says cannot be told from the tree that the server keeps of it.
+/// @param parameters a namespace; one that is not there has no parameters.
+/// @param name of the node: begins an error.
+/// @throws std::invalid_argument that names the parameter if it is of another type (binary, date).
+HOVERCRAFT_PUBLIC hovercraft::ConfigNode parameterTree(const XmlRpc::XmlRpcValue& parameters,
+                                                       const std::string& name);
 
 }  // namespace hovercraft_ros

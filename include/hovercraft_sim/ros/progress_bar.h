@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <ostream>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// A line on a terminal that shows how much is done; it is drawn at most ten times a second.
-class ProgressBar {
+class HOVERCRAFT_PUBLIC ProgressBar {
  public:
   using Clock = std::chrono::steady_clock;
 

@@ -7,22 +7,24 @@
 #include <hovercraft_sim/State.h>
 #include <rosbag/message_instance.h>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// Messages of a recording, checked as they are read: a bag is input of a user, whatever wrote it.
 /// Each throws std::invalid_argument that names file, topic, time and rule.
 
 /// Its tick fits hovercraft::Tick, it is for engines that there are, its thrusts are finite.
-boost::shared_ptr<const hovercraft_sim::AppliedCommand> readAppliedCommand(
+HOVERCRAFT_PUBLIC boost::shared_ptr<const hovercraft_sim::AppliedCommand> readAppliedCommand(
     const std::string& path, const rosbag::MessageInstance& instance);
 
 /// Its ticks fit hovercraft::Tick, its kind is known, and what that kind uses is finite, its
 /// quaternion of length 1. Whether vehicle and snapshot fit the scenario is seen by applyEvent().
-boost::shared_ptr<const hovercraft_sim::RunEvent> readRunEvent(
+HOVERCRAFT_PUBLIC boost::shared_ptr<const hovercraft_sim::RunEvent> readRunEvent(
     const std::string& path, const rosbag::MessageInstance& instance);
 
 /// Its tick fits hovercraft::Tick. Its numbers are what a replay compares: they may be any.
-boost::shared_ptr<const hovercraft_sim::State> readState(const std::string& path,
-                                                         const rosbag::MessageInstance& instance);
+HOVERCRAFT_PUBLIC boost::shared_ptr<const hovercraft_sim::State> readState(
+    const std::string& path, const rosbag::MessageInstance& instance);
 
 }  // namespace hovercraft_ros

@@ -7,6 +7,7 @@
 #include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/State.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
@@ -60,6 +61,6 @@ struct Recording {
 /// no scenario, no state, a vehicle that the scenario lacks, more than one run; or topic, time and
 /// rule of a message that cannot be (recorded_messages.h), such as a State whose stamp does not fit
 /// its tick.
-Recording readRecording(const std::string& path);
+HOVERCRAFT_PUBLIC Recording readRecording(const std::string& path);
 
 }  // namespace hovercraft_ros

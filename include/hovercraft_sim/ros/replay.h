@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/recording_reader.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -16,7 +17,7 @@ struct ReplayDifference {
   RunTime time;
   std::string vehicle;
   std::string field;
-  std::string recorded;  // with every digit
+  std::string recorded;  // to the last bit
   std::string replayed;
 };
 
@@ -44,20 +45,21 @@ struct ReplayObserver {
 /// been; a snapshot that was loaded then gives it the motion, not the momenta.
 /// @throws std::invalid_argument that names the recording and the event if one does not fit the
 /// scenario.
-ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scenario, bool compares,
-                    const ReplayObserver& observer = {});
+HOVERCRAFT_PUBLIC ReplayResult replay(const Recording& recording,
+                                      const hovercraft::Scenario& scenario, bool compares,
+                                      const ReplayObserver& observer = {});
 
 /// What the tool `replay` was asked for.
 struct ReplayRequest {
   std::string bag;
   std::string output;             // a bag to write anew, or empty
-  std::vector<std::string> sets;  // KEY.PATH=VALUE: changes of the scenario
+  std::vector<std::string> sets;  // KEY.PATH=VALUE: withOverrides()
 };
 
 /// Replays a bag and says in one line what came of it.
 /// @returns 0 identical, or the scenario was changed and there is nothing to compare; 1 different;
 /// 2 not all can be checked.
 /// @throws std::invalid_argument for whatever in the request or the bag is bad.
-int replayBag(const ReplayRequest& request, std::string& verdict);
+HOVERCRAFT_PUBLIC int replayBag(const ReplayRequest& request, std::string& verdict);
 
 }  // namespace hovercraft_ros

@@ -7,6 +7,8 @@
 #include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/SetState.h>
 
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/ros/tf_frames.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -16,28 +18,31 @@
 namespace hovercraft_ros {
 
 /// @throws std::invalid_argument with the names there are if `name` is none of them.
-std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string& name);
+HOVERCRAFT_PUBLIC std::size_t vehicleIndex(const hovercraft::Scenario& scenario,
+                                           const std::string& name);
 
-hovercraft_sim::RunEvent resetEvent(std::int64_t seed);
+HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent resetEvent(std::int64_t seed);
 
 /// @param snapshot as hovercraft::toSnapshot() wrote it; checked when the event is applied.
-hovercraft_sim::RunEvent loadEvent(const std::string& snapshot);
+HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent loadEvent(const std::string& snapshot);
 
 /// @throws std::invalid_argument if the request names no vehicle, is not finite, its quaternion is
 /// not of length 1, or the motion does not fit the model.
-hovercraft_sim::RunEvent setStateEvent(const hovercraft::Scenario& scenario,
-                                       const hovercraft_sim::SetState::Request& request);
+HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent setStateEvent(
+    const hovercraft::Scenario& scenario, const hovercraft_sim::SetState::Request& request);
 
-/// @param tick at which the wrench begins.
+/// @param tick at which the wrench begins. @param frames those that a request may name: the world,
+/// or the craft's.
 /// @throws std::invalid_argument if the request names no vehicle, no frame that fits, is not finite
 /// or lasts no time.
-hovercraft_sim::RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
-                                          const hovercraft_sim::ApplyWrench::Request& request,
-                                          const std::string& world_frame, hovercraft::Tick tick);
+HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent applyWrenchEvent(
+    const hovercraft::Scenario& scenario, const hovercraft_sim::ApplyWrench::Request& request,
+    const TfFrames& frames, hovercraft::Tick tick);
 
 /// Changes the simulation as the event says, at its current tick.
 /// @throws std::invalid_argument if a snapshot does not fit the scenario, a motion has momenta or
 /// an energy that are not finite, or an event is of no known kind.
-void applyEvent(const hovercraft_sim::RunEvent& event, hovercraft::Simulation& simulation);
+HOVERCRAFT_PUBLIC void applyEvent(const hovercraft_sim::RunEvent& event,
+                                  hovercraft::Simulation& simulation);
 
 }  // namespace hovercraft_ros

@@ -3,31 +3,36 @@
 #include <memory>
 #include <ostream>
 #include <string>
+#include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/overrides.h"
 #include "hovercraft_sim/sim/run.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros {
 
-/// A scenario file; package:// paths in it are found by rospack.
-hovercraft::Scenario loadScenarioFile(const std::string& path);
+/// A scenario file; package:// paths in it are found by rospack. @throws as loadScenario().
+HOVERCRAFT_PUBLIC hovercraft::Scenario loadScenarioFile(
+    const std::string& path, const hovercraft::OverrideList& overrides = {});
 
 /// Commands from a CSV file or a bag, whichever the file is.
 /// @throws std::invalid_argument, see CsvCommandSource and BagCommandSource.
-std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
-                                                        const hovercraft::Scenario& scenario);
+HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::CommandSource> openCommands(
+    const std::string& path, const hovercraft::Scenario& scenario);
 
 /// A bag if the name ends in .bag; CSV if it ends in .csv, is `-` (the standard output) or a
 /// device.
 /// @throws std::invalid_argument if it is neither, or cannot be opened for writing.
-std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
-                                                  const hovercraft::Scenario& scenario);
+HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::StateSink> openOutput(
+    const std::string& path, const hovercraft::Scenario& scenario);
 
 /// What the tool `simulate` was asked for.
 struct SimulateRequest {
-  std::string scenario;         // file
-  std::string commands;         // file; empty: nobody commands anything
+  std::string scenario;           // file
+  std::vector<std::string> sets;  // KEY.PATH=VALUE: withOverrides()
+  std::string commands;           // file; empty: nobody commands anything
   std::string duration;         // decimal seconds; empty: until kAfterLastCommandNs after the last
   std::string output;           // as openOutput()
   std::string contacts;         // CSV file of contacts; empty: none
@@ -38,9 +43,10 @@ struct SimulateRequest {
 constexpr std::int64_t kAfterLastCommandNs = 1000000000;
 
 /// Runs a scenario as fast as it goes. Says in `messages` which engines timed out, and at the end
-/// how long it took and the hash of the last state.
+/// what a step cost (without the output), how long it all took and the hash of the last state.
 /// @throws std::invalid_argument for whatever in the request or its files is bad, and if the output
 /// cannot be written.
-hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages);
+HOVERCRAFT_PUBLIC hovercraft::RunSummary simulate(const SimulateRequest& request,
+                                                  std::ostream& messages);
 
 }  // namespace hovercraft_ros

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/trajectory.h"
 
 namespace hovercraft_ros {
@@ -15,9 +16,9 @@ namespace hovercraft_ros {
 /// Where the bag has states, and they tell of one time of tick 0 only, all other times count from
 /// there too: those of loose bodies, which have no state, as those of the craft.
 /// @throws std::invalid_argument that names the bag, the topic, the stamp and the rule.
-std::vector<hovercraft::Trajectory> readBagTrajectories(const std::string& path);
+HOVERCRAFT_PUBLIC std::vector<hovercraft::Trajectory> readBagTrajectories(const std::string& path);
 
 /// The trajectories of a bag, or of a CSV file as `simulate` writes it.
-std::vector<hovercraft::Trajectory> readTrajectories(const std::string& path);
+HOVERCRAFT_PUBLIC std::vector<hovercraft::Trajectory> readTrajectories(const std::string& path);
 
 }  // namespace hovercraft_ros

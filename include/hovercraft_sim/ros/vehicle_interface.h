@@ -13,7 +13,9 @@
 #include <ros/subscriber.h>
 #include <std_msgs/Float64.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/live_run.h"
+#include "hovercraft_sim/ros/newcomer_publisher.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/ros/warning_limiter.h"
 #include "hovercraft_sim/sim/simulation.h"
@@ -21,30 +23,49 @@
 namespace hovercraft_ros {
 
 /// The topics of one craft: thrusts in, messages out. A bad thrust is dropped whole and counted.
-class VehicleInterface {
+class HOVERCRAFT_PUBLIC VehicleInterface {
  public:
   /// Receives a command, whose tick the receiver sets, and the stamp of its header if it has one;
   /// returns null, or why it was not taken. Called from the node's callback queue only.
   using CommandSink =
       std::function<const char*(const hovercraft::Command&, const std::optional<ros::Time>& stamp)>;
 
+  /// The node that the craft flies in.
+  struct Owner {
+    CommandSink take;
+    /// The run stands, and publishes nothing by itself: who subscribes then is given the present
+    /// state, he alone.
+    std::function<bool()> stands;
+  };
+
   /// @param handle of the namespace that the craft's own namespace lies in.
   /// @param latched who subscribes late gets the last messages: in lockstep a controller that
   /// starts after the simulation could not answer them otherwise.
   VehicleInterface(const ros::NodeHandle& handle, const LiveRun& run, std::size_t vehicle,
-                   const std::string& world_frame, CommandSink sink, bool latched = false);
+                   const TfFrames& frames, Owner owner, bool latched = false);
   VehicleInterface(const VehicleInterface&) = delete;
   VehicleInterface& operator=(const VehicleInterface&) = delete;
 
-  /// Publishes every message but the transform, which the node sends for all craft at once.
+  /// Fills the messages from the run as it stands.
+  void refresh() { messages_.fill(run_.simulation(), run_.place()); }
+  /// Publishes them, but for the transform, which the node sends for all craft at once.
   void publish();
   void publishApplied(const hovercraft::Command& command);
+  /// Counts a command that was taken, and warns if it is beyond the engines' limits.
+  /// @param source where it came from.
+  void noteSaturation(const hovercraft::Command& command, const std::string& source);
+  /// Full names of the topics that nobody else may publish.
+  std::vector<std::string> topics() const;
 
   const VehicleMessages& messages() const { return messages_; }
   std::uint64_t droppedCommands() const { return dropped_commands_; }
   std::uint64_t saturatedCommands() const { return saturated_commands_; }
 
  private:
+  template <class Message>
+  NewcomerPublisher<Message> advertise(ros::NodeHandle& handle, const char* topic,
+                                       const Message& (VehicleMessages::*message)() const,
+                                       bool latched);
   void subscribe(ros::NodeHandle& handle);
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
   void take(const std::optional<hovercraft::Command>& command, const std::string& topic,
@@ -52,13 +73,18 @@ class VehicleInterface {
 
   const LiveRun& run_;
   std::size_t vehicle_;
-  CommandSink sink_;
+  Owner owner_;
   VehicleMessages messages_;
   WarningLimiter drop_warnings_;
   WarningLimiter saturation_warnings_;
   std::uint64_t dropped_commands_ = 0;
   std::uint64_t saturated_commands_ = 0;
-  ros::Publisher pose_, twist_, odom_, engines_, state_, commands_;
+  NewcomerPublisher<geometry_msgs::PoseStamped> pose_;
+  NewcomerPublisher<geometry_msgs::TwistStamped> twist_;
+  NewcomerPublisher<nav_msgs::Odometry> odom_;
+  NewcomerPublisher<hovercraft_sim::EngineStatus> engines_;
+  NewcomerPublisher<hovercraft_sim::State> state_;
+  ros::Publisher commands_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

@@ -7,6 +7,7 @@
 #include <geometry_msgs/Point.h>
 #include <hovercraft_sim/EngineStatus.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros {
@@ -16,26 +17,30 @@ namespace hovercraft_ros {
 
 /// The box of uniform density that has the mass and the inertia of a craft described by numbers;
 /// edges in m.
-hovercraft::Vector3 equivalentBox(const hovercraft::MassProperties& body);
+HOVERCRAFT_PUBLIC hovercraft::Vector3 equivalentBox(const hovercraft::MassProperties& body);
 
 /// Hull (its parts, or the equivalent box), bow and engines, in base_link.
-std::vector<visualization_msgs::Marker> craftMarkers(const hovercraft::VehicleScenario& craft);
+HOVERCRAFT_PUBLIC std::vector<visualization_msgs::Marker> craftMarkers(
+    const hovercraft::VehicleScenario& craft);
 
 /// An arrow per engine along the force that it exerts on the craft; its length grows with the
 /// applied thrust. Red while the command is saturated, else orange.
-std::vector<visualization_msgs::Marker> thrustMarkers(const hovercraft::VehicleScenario& craft,
-                                                      const hovercraft_sim::EngineStatus& engines);
+HOVERCRAFT_PUBLIC std::vector<visualization_msgs::Marker> thrustMarkers(
+    const hovercraft::VehicleScenario& craft, const hovercraft_sim::EngineStatus& engines);
 
 /// The hull of a loose body, locked to `<name>/base_link`.
-visualization_msgs::Marker bodyMarker(const hovercraft::VehicleScenario& body);
+HOVERCRAFT_PUBLIC visualization_msgs::Marker bodyMarker(const hovercraft::VehicleScenario& body);
 
 /// The fixed obstacles of a scenario, in the world frame.
-std::vector<visualization_msgs::Marker> obstacleMarkers(const hovercraft::Scenario& scenario,
-                                                        const std::string& world_frame);
+HOVERCRAFT_PUBLIC std::vector<visualization_msgs::Marker> obstacleMarkers(
+    const hovercraft::Scenario& scenario, const std::string& world_frame);
+
+/// Puts the prefix of tf frames (TfFrames) before the frame of each.
+void addPrefix(const std::string& prefix, std::vector<visualization_msgs::Marker>& markers);
 
 /// The way that base_link came, a line in the world frame.
-visualization_msgs::Marker pathMarker(const hovercraft::VehicleScenario& craft,
-                                      const std::string& world_frame,
-                                      const std::vector<geometry_msgs::Point>& path);
+HOVERCRAFT_PUBLIC visualization_msgs::Marker pathMarker(
+    const hovercraft::VehicleScenario& craft, const std::string& world_frame,
+    const std::vector<geometry_msgs::Point>& path);
 
 }  // namespace hovercraft_ros

@@ -13,6 +13,8 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
 
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/ros/tf_frames.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros {
@@ -25,10 +27,9 @@ constexpr const char* kOdomTopic = "odom";
 constexpr const char* kEnginesTopic = "engines";
 constexpr const char* kStateTopic = "state";
 constexpr const char* kCommandsTopic = "commands";
-constexpr const char* kDefaultWorldFrame = "world";
 
 /// Simulated time as ROS time: epoch + n·h, from whole nanoseconds.
-ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
+HOVERCRAFT_PUBLIC ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
 
 /// Where a run stands in ROS time.
 struct RunStamp {
@@ -39,11 +40,11 @@ struct RunStamp {
 
 /// Every message about one craft at one tick; the node publishes them, a bag writer writes them.
 /// The messages are kept and filled again, so that their strings are made once.
-class VehicleMessages {
+class HOVERCRAFT_PUBLIC VehicleMessages {
  public:
   /// @param vehicle index into the scenario's vehicles.
   VehicleMessages(const hovercraft::Scenario& scenario, std::size_t vehicle,
-                  const std::string& world_frame = kDefaultWorldFrame);
+                  TfFrames frames = TfFrames());
 
   /// Fills every message from the simulation as it stands.
   void fill(const hovercraft::Simulation& simulation, const RunStamp& place);
@@ -68,6 +69,7 @@ class VehicleMessages {
 
   hovercraft::VehicleScenario description_;
   std::size_t vehicle_;
+  TfFrames frames_;
   std::uint32_t episode_ = 0;
   std::uint64_t commands_ = 0;  // that took effect in that episode
   geometry_msgs::PoseStamped pose_;

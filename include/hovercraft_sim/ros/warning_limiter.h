@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft_ros {
 
 /// Says when a warning may be given again: once a second at most, on a steady clock
 /// (ROS_WARN_THROTTLE counts in ROS time, which a simulation stops, hurries and slows).
-class WarningLimiter {
+class HOVERCRAFT_PUBLIC WarningLimiter {
  public:
   bool isDue(std::int64_t now_ns) {
     if (last_ns_ && now_ns - *last_ns_ < kPeriodNs) return false;

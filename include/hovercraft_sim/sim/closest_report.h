@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft {
 
 /// What the tool `closest` is asked.
@@ -20,6 +22,6 @@ struct ClosestRequest {
 /// counted from 0 in the order in which the triangles of the file first use them.
 /// @throws std::invalid_argument naming the mesh or the pose that is not in order.
 /// @throws std::runtime_error if the bound on the number of steps was reached.
-std::string closestReport(const ClosestRequest& request);
+HOVERCRAFT_PUBLIC std::string closestReport(const ClosestRequest& request);
 
 }  // namespace hovercraft

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -29,7 +30,7 @@ struct Command {
 /// Commands that wait for their tick, in the order of ticks; of one tick, in the order in which
 /// they came. One that a later command of its tick replaces for all its engines has no effect on
 /// any state and does not wait: what comes without a step in between takes bounded memory.
-class CommandLog {
+class HOVERCRAFT_PUBLIC CommandLog {
  public:
   /// @param command its tick is not before that of the last one pushed.
   void push(const Command& command);

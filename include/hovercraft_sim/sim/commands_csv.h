@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/csv_reader.h"
 #include "hovercraft_sim/sim/scenario.h"
@@ -15,7 +16,7 @@ namespace hovercraft {
 /// `time,vehicle,rear,left,right`: seconds, never decreasing, and thrusts in N. A row takes effect
 /// at the first tick with t >= time and holds until the next one; it is not for an engine whose
 /// field is empty.
-class CsvCommandSource : public CommandSource {
+class HOVERCRAFT_PUBLIC CsvCommandSource : public CommandSource {
  public:
   /// @throws std::invalid_argument if the file cannot be read or its header is not right for the
   /// scenario.

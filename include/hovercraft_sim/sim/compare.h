@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/trajectory.h"
 
 namespace hovercraft {
@@ -83,8 +84,8 @@ struct Comparison {
 /// Compares two trajectories sample by sample; A is the reference. A sample at time 0 needs no
 /// partner in a trajectory that cannot hold one.
 /// @throws std::invalid_argument if a tolerance is negative or not finite.
-Comparison compareTrajectories(const Trajectory& a, const Trajectory& b,
-                               const CompareOptions& options);
+HOVERCRAFT_PUBLIC Comparison compareTrajectories(const Trajectory& a, const Trajectory& b,
+                                                 const CompareOptions& options);
 
 /// Two trajectories that are to be compared.
 struct TrajectoryPair {
@@ -96,15 +97,15 @@ struct TrajectoryPair {
 /// B, whatever they are called.
 /// @param vehicle the only one to pair; empty: all.
 /// @throws std::invalid_argument that names the vehicle that has no partner, or is not there.
-std::vector<TrajectoryPair> pairByVehicle(const std::vector<Trajectory>& a,
-                                          const std::vector<Trajectory>& b,
-                                          const std::string& vehicle = "");
+HOVERCRAFT_PUBLIC std::vector<TrajectoryPair> pairByVehicle(const std::vector<Trajectory>& a,
+                                                            const std::vector<Trajectory>& b,
+                                                            const std::string& vehicle = "");
 
 /// A comparison in words and numbers, several lines.
-std::string toText(const Comparison& comparison, const CompareOptions& options);
+HOVERCRAFT_PUBLIC std::string toText(const Comparison& comparison, const CompareOptions& options);
 
 /// The errors over time as CSV with the header
 /// `time,position,attitude,relative_position,relative_attitude` (s, m, rad).
-std::string errorsCsv(const Comparison& comparison);
+HOVERCRAFT_PUBLIC std::string errorsCsv(const Comparison& comparison);
 
 }  // namespace hovercraft

@@ -5,9 +5,10 @@
 #include <string>
 #include <utility>
 #include <vector>
-#include <yaml-cpp/yaml.h>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
+#include "hovercraft_sim/sim/config_node.h"
 
 namespace hovercraft {
 
@@ -16,20 +17,22 @@ struct NumberRule {
   bool (*holds)(double);
   const char* text;
 };
-extern const NumberRule kAnyNumber;
-extern const NumberRule kPositive;
-extern const NumberRule kNotNegative;
-extern const NumberRule kNotPositive;
+extern HOVERCRAFT_PUBLIC const NumberRule kAnyNumber;
+extern HOVERCRAFT_PUBLIC const NumberRule kPositive;
+extern HOVERCRAFT_PUBLIC const NumberRule kNotNegative;
+extern HOVERCRAFT_PUBLIC const NumberRule kNotPositive;
 
-/// One map of a YAML tree, with the path by which the user knows it. Every reading function throws
-/// std::invalid_argument with one line: source, key path, value, rule.
-class ConfigReader {
+/// One map of a tree, with the path by which the user knows it. Every reading function throws
+/// std::invalid_argument with one line: source, key path, value, rule. Numbers are decimal, as
+/// YAML 1.2 writes them, without quotes and leading zeros: what YAML 1.1 would read as another
+/// number is refused.
+class HOVERCRAFT_PUBLIC ConfigReader {
  public:
   /// @param source name of the file or parameter that the tree came from.
   /// @param path key path of `node` within the source; empty at the top.
-  ConfigReader(const YAML::Node& node, std::string source, std::string path = "");
+  ConfigReader(ConfigNode node, std::string source, std::string path = "");
 
-  /// Throws if there is a key that is not listed, or one that stands twice.
+  /// Throws if there is a key that is not listed.
   void allowOnly(std::initializer_list<const char*> keys) const;
 
   bool has(const char* key) const;
@@ -63,11 +66,11 @@ class ConfigReader {
   const std::string& path() const { return path_; }
 
  private:
-  YAML::Node required(const std::string& key) const;
+  const ConfigNode& required(const std::string& key) const;
   std::string pathOf(const std::string& key) const;
-  double numberAt(const YAML::Node& node, const std::string& key, const NumberRule& rule) const;
+  double numberAt(const ConfigNode& node, const std::string& key, const NumberRule& rule) const;
 
-  YAML::Node node_;
+  ConfigNode node_;
   std::string source_;
   std::string path_;
 };

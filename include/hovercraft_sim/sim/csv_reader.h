@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft {
 
 /// A file of comma-separated values with a header, read row by row: only the current row is in
 /// memory. No quotes, no comments; blanks around a field, CR before LF, a byte-order mark and blank
 /// lines at the end are passed over. Every function throws std::invalid_argument with one line:
 /// file, line number, column, value, rule.
-class CsvReader {
+class HOVERCRAFT_PUBLIC CsvReader {
  public:
   /// Opens the file and reads the header.
   explicit CsvReader(std::string path);

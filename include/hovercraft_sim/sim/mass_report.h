@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hovercraft_sim/body/mass_properties.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft {
@@ -29,17 +30,17 @@ struct MassReportRequest {
 /// The bodies of the file that the request names: a mesh, or vehicles in the scenario's order.
 /// @param load_scenario reads a scenario file.
 /// @throws std::invalid_argument for whatever in the request or its file is bad.
-std::vector<BodyReport> bodiesOf(
+HOVERCRAFT_PUBLIC std::vector<BodyReport> bodiesOf(
     const MassReportRequest& request,
     const std::function<Scenario(const std::string& path)>& load_scenario);
 
 /// Text for people: one paragraph for each body, 9 significant digits.
-std::string toText(const std::vector<BodyReport>& bodies);
+HOVERCRAFT_PUBLIC std::string toText(const std::vector<BodyReport>& bodies);
 
-/// One JSON object with 17 significant digits, ending in a line break. A single body is the object
+/// One JSON object, numbers as appendNumber(), ending in a line break. A single body is the object
 /// itself: vehicle (of a scenario), mass, volume (null if unknown), center_of_mass, inertia (3 × 3,
 /// about the centre of mass), principal_moments (ascending), principal_axes (one unit vector for
 /// each moment; right-handed). Several are in {"vehicles": {NAME: object, ...}}.
-std::string toJson(const std::vector<BodyReport>& bodies);
+HOVERCRAFT_PUBLIC std::string toJson(const std::vector<BodyReport>& bodies);
 
 }  // namespace hovercraft

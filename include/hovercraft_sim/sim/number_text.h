@@ -4,7 +4,14 @@
 #include <fmt/format.h>
 #include <string>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft {
+
+/// One of 0 to 9, whatever the locale.
+constexpr bool isDigit(char c) {
+  return c >= '0' && c <= '9';
+}
 
 enum class NumberSyntax { kNumber, kNotFinite, kNoNumber };
 
@@ -17,21 +24,23 @@ struct ParsedNumber {
 /// Reads a decimal number such as -1, .5 or 2.5e-3, whatever the locale. Words for infinity or NaN
 /// (with a sign, with YAML's leading point) and numbers beyond the range of a double are
 /// kNotFinite; anything else, also white space, is kNoNumber.
-ParsedNumber parseNumber(const std::string& text);
+HOVERCRAFT_PUBLIC ParsedNumber parseNumber(const std::string& text);
 
 /// Seconds as decimal text to whole nanoseconds, exactly; a half and more of a nanosecond counts
 /// as one, so that a text with 17 digits of a double's time gives the time that was meant.
 /// @param text parseNumber() finds in it a number of at most kMaxNanoseconds, of either sign.
-std::int64_t parseNanoseconds(const std::string& text);
+HOVERCRAFT_PUBLIC std::int64_t parseNanoseconds(const std::string& text);
 
-/// Appends a number with up to 17 significant digits, correctly rounded, the text of printf's
-/// %.17g: parseNumber() gives the same bits again. Several times as fast as printf for the numbers
-/// that a craft's motion is made of.
-/// @param number finite.
-void appendNumber(fmt::memory_buffer& buffer, double number);
+/// Appends the shortest decimal number that parseNumber() reads as the same bits, and of several
+/// the nearest one: 0.6, not 0.59999999999999998. Written as %g writes: with an exponent below 1e-4
+/// and from 1e17 on. Several times as fast as printf for the numbers that a craft's motion is made
+/// of.
+/// @param number if it is not finite, what is written is a word that parseNumber() refuses.
+HOVERCRAFT_PUBLIC void appendNumber(fmt::memory_buffer& buffer, double number);
+HOVERCRAFT_PUBLIC std::string numberText(double number);
 
 /// Appends whole nanoseconds as seconds, exactly and without trailing zeros: 1500000000 is 1.5.
-void appendSeconds(fmt::memory_buffer& buffer, std::int64_t time_ns);
-std::string secondsText(std::int64_t time_ns);
+HOVERCRAFT_PUBLIC void appendSeconds(fmt::memory_buffer& buffer, std::int64_t time_ns);
+HOVERCRAFT_PUBLIC std::string secondsText(std::int64_t time_ns);
 
 }  // namespace hovercraft

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
+
 namespace hovercraft {
 
 /// The name under which a file is written until it is whole: a run that fails leaves
 /// `NAME.partial`, never a truncated `NAME`. A pipe or a device is written to directly.
-class PartialFile {
+class HOVERCRAFT_PUBLIC PartialFile {
  public:
   explicit PartialFile(const std::string& path);
 
@@ -34,10 +36,11 @@ struct OutputOption {
 /// What is read stays: no output may be one of the files that are read, or the same file as another
 /// output, under whatever names; nor may its `.partial`.
 /// @throws std::invalid_argument with option, path and rule.
-void checkOutputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);
+HOVERCRAFT_PUBLIC void checkOutputs(const std::vector<OutputOption>& outputs,
+                                    const std::vector<std::string>& inputs);
 
 /// A file that is written from its beginning to its end.
-class OutputFile {
+class HOVERCRAFT_PUBLIC OutputFile {
  public:
   /// @param path `-` is the standard output.
   /// @throws std::invalid_argument if it cannot be opened for writing.

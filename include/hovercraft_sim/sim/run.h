@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/simulation.h"
@@ -53,7 +54,7 @@ struct RunSummary {
 /// Steps a simulation to the plan's last tick as fast as it goes: commands from the source, states
 /// to the sink, which is closed at the end.
 /// @param simulation at the beginning of the run; its on_applied and on_contact are taken over.
-RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
-               const RunPlan& plan);
+HOVERCRAFT_PUBLIC RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
+                                 const RunPlan& plan);
 
 }  // namespace hovercraft

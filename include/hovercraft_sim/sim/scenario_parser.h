@@ -2,9 +2,12 @@
 
 #include <functional>
 #include <string>
-#include <yaml-cpp/yaml.h>
+#include <vector>
 
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/sim/overrides.h"
 #include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
 
@@ -18,25 +21,29 @@ struct ScenarioSource {
   std::function<std::string(const std::string& package)> package_folder;
 };
 
-/// Parses and checks a whole scenario (design: one schema, one parser, for files and for the
-/// parameter server).
+/// Checks a whole scenario. @param tree of treeOf().
 /// @throws std::invalid_argument with one line that names source, key path, value and rule.
-Scenario parseScenario(const YAML::Node& tree, const ScenarioSource& source);
+HOVERCRAFT_PUBLIC Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source);
 
-/// The tree of a text.
-/// @param source what the text is, for the message.
-/// @throws std::invalid_argument with the source if it is not YAML.
-YAML::Node treeOf(const std::string& text, const std::string& source);
+/// Parses and checks the text of a scenario: of a file, of a parameter, of a recording. There is
+/// one parser (treeOf), so a text means the same wherever it comes from.
+/// @param overrides see withOverrides(); messages name them behind the source.
+/// @throws std::invalid_argument also if the text is not YAML.
+HOVERCRAFT_PUBLIC Scenario parseScenario(const std::string& text, const ScenarioSource& source,
+                                         const OverrideList& overrides = {});
 
 /// Reads the file and parses it; relative mesh paths start from its folder.
 /// @param package_folder see ScenarioSource.
+/// @param overrides as parseScenario().
 /// @throws std::invalid_argument also if the file cannot be read or is not YAML.
-Scenario loadScenario(const std::string& path,
-                      std::function<std::string(const std::string&)> package_folder = {});
+HOVERCRAFT_PUBLIC Scenario loadScenario(
+    const std::string& path, std::function<std::string(const std::string&)> package_folder = {},
+    const OverrideList& overrides = {});
 
-/// The scenario with every default written out, 17 digits, keys in a fixed order: parsing it gives
-/// the same scenario to the last bit. A craft with a mesh among its parts is written with its mass,
-/// centre of mass and inertia instead, so that the text needs no other file.
-std::string toYaml(const Scenario& scenario);
+/// The scenario with every default written out, numbers as the shortest text that gives the same
+/// bits, keys in a fixed order: parsing it gives the same scenario to the last bit. A craft with a
+/// mesh among its parts is written with its mass, centre of mass and inertia instead, so that the
+/// text needs no other file.
+HOVERCRAFT_PUBLIC std::string toYaml(const Scenario& scenario);
 
 }  // namespace hovercraft

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/body/body_state.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
@@ -80,8 +81,9 @@ struct EngineReport {
 
 /// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
 /// allocation in step(); the same scenario and the same commands at the same ticks give the same
-/// bits.
-class Simulation {
+/// bits, whatever the program was compiled with and whatever the floating-point environment of its
+/// thread is (FloatingPointEnvironment). Callbacks run in the thread's own.
+class HOVERCRAFT_PUBLIC Simulation {
  public:
   explicit Simulation(Scenario scenario);
 
@@ -155,13 +157,14 @@ class Simulation {
   [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
   void stepWorld();
-  void report();
+  void sortRecords();
+  ContactEvent eventOf(const ContactRecord& record) const;
   BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
                    const Mobility& mobility) const;
   void partTouching(int body);
 
   Scenario scenario_;
-  double h_;  // s
+  double h_ = 0.0;  // s
   std::vector<HovercraftModel> models_;
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;

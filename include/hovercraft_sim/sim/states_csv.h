@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/run.h"
 #include "hovercraft_sim/sim/trajectory.h"
@@ -13,8 +14,8 @@ namespace hovercraft {
 /// Writes states as CSV with the header `time,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz`: s, m, m/s,
 /// rad/s; position of the centre of mass and both velocities in world axes, q = B -> W. Of several
 /// vehicles and loose bodies each has its row, with its name in a column `vehicle` after the time.
-/// Times are exact; the other numbers have the 17 digits that tell one double from the next.
-class StatesCsvWriter : public StateSink {
+/// Times are exact; the other numbers have the digits that tell one double from the next.
+class HOVERCRAFT_PUBLIC StatesCsvWriter : public StateSink {
  public:
   /// @param path `-` is the standard output.
   /// @throws std::invalid_argument if it cannot be opened for writing.
@@ -36,6 +37,6 @@ class StatesCsvWriter : public StateSink {
 /// The trajectories of a file as StatesCsvWriter makes it, one for each vehicle, in the order of
 /// their first rows.
 /// @throws std::invalid_argument that names file, line, column, value and rule.
-std::vector<Trajectory> readStatesCsv(const std::string& path);
+HOVERCRAFT_PUBLIC std::vector<Trajectory> readStatesCsv(const std::string& path);
 
 }  // namespace hovercraft

@@ -4,28 +4,29 @@
 #include <vector>
 
 #include "hovercraft_sim/geometry/convex_polyhedron.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/world/world.h"
 
 namespace hovercraft {
 
 /// The corners of a hull in the frame that it is placed in, m.
-std::vector<Vector3> hullPoints(const HullScenario& hull);
+HOVERCRAFT_PUBLIC std::vector<Vector3> hullPoints(const HullScenario& hull);
 
 /// The corners of all parts in H, m; balls and round solids as of HullScenario.
-std::vector<Vector3> partPoints(const std::vector<PartScenario>& parts);
+HOVERCRAFT_PUBLIC std::vector<Vector3> partPoints(const std::vector<PartScenario>& parts);
 
 /// The body by which a craft meets others, in B. @throws std::invalid_argument if it is flat.
-ConvexPolyhedron hullOf(const VehicleScenario& vehicle);
+HOVERCRAFT_PUBLIC ConvexPolyhedron hullOf(const VehicleScenario& vehicle);
 
 /// What acts on a craft or a loose body.
-HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle);
+HOVERCRAFT_PUBLIC HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle);
 
 /// The initial state of a craft or a loose body.
-BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
-                       const Mobility& mobility);
+HOVERCRAFT_PUBLIC BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
+                                         const Mobility& mobility);
 
 /// The world of a scenario that has one: its vehicles, then its loose bodies, both by name.
-World worldOf(const Scenario& scenario);
+HOVERCRAFT_PUBLIC World worldOf(const Scenario& scenario);
 
 }  // namespace hovercraft

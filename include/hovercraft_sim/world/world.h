@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/world/island.h"
 #include "hovercraft_sim/world/world_types.h"
 
@@ -18,7 +19,7 @@ namespace hovercraft {
 /// piece of a step ends before the time of impact of each pair near it, or at it.
 /// The same states give the same bits, whatever was stepped before: what is kept between steps
 /// besides the memory of contacts is a list of neighbours that only saves time.
-class World {
+class HOVERCRAFT_PUBLIC World {
  public:
   World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles);
 

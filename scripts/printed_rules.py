@@ -1,0 +1,78 @@
+"""How check_printed.py runs what the documents print. The first rule whose pattern fits a whole command holds.
+
+A command without a rule is run as it stands: it must end by itself, with exit status 0. A rule is for the others:
+
+  skip     the reason why it cannot run here: it is not run
+  until    it runs for ever: a topic that is published, a command that returns when it has done enough, or words (re.compile) of its
+           output. Then it gets SIGINT
+  stays    ... but only at the end of its section, since what follows needs it
+  beside   what runs meanwhile, as another terminal would: printed commands that have a rule with `until`. Others are stopped before
+  drive    a printed command that goes on, as soon as `until` holds, until its own `until` does
+  then     a command that must succeed afterwards
+  says     words that its output must have (a regular expression)
+"""
+
+import collections
+import re
+
+Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
+
+DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md')
+# Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
+BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
+# The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
+TEXTS = ('', 'text', 'mermaid')
+
+# Up to this section of the first document everything runs in order. What it built is there then, and the other documents run beside the rest.
+LAST_IN_ORDER = 'Build it yourself'
+# Sections in which commands are named, not printed to be run.
+UNREAD_SECTIONS = ('Traps of ROS 1 on Debian',)
+
+ROSCORE = 'roscore -p ${ROS_MASTER_URI##*:}'
+SIMULATION = 'roslaunch hovercraft_sim sim.launch'
+FORWARDS = 'rostopic pub -r 10 /hovercraft/thrust/rear std_msgs/Float64 3.0'
+# Returns when the craft has moved by more than 0.2 m.
+MOVED = 'rostopic echo -n 1 --filter "m.pose.position.x > 0.2" /hovercraft/pose'
+# rosrun finds each program once, and asks nothing.
+ROSRUN = ('for name in hold_heading.py plot_run.py simulate; do '
+          'rosrun --prefix echo hovercraft_sim $name | grep -x "/.*/$name" || exit 1; done')
+SCRIPTS_TEST = 'scripts/test runs it'
+NAMED = 'a name in a sentence: nothing to run'
+RECORDS = 'rosnode info /record | grep /hovercraft/state'
+HAS_THRUSTS = 'rosbag info flight.bag | grep /hovercraft/thrust/rear'
+
+RULES = (
+    # README.md
+    Rule(r'scripts/demo', then='. build_release/devel/setup.bash; ' + ROSRUN, says='top speed'),
+    Rule(r'scripts/test.*|python3 scripts/check_printed\.py .*', skip='it is what runs this'),
+    Rule(r'roslaunch hovercraft_sim sim\.launch', until='/hovercraft_sim/scenario', stays=True),
+    Rule(r'rostopic pub -r 10 /hovercraft/thrust/rear .*', until=MOVED),
+    Rule(r'rostopic echo /hovercraft/pose/pose/position', until=re.compile(r'x: ([1-9]|0\.[1-9])'), beside=(SIMULATION, FORWARDS)),
+    Rule(r'rostopic pub -r 10 /hovercraft/thrust hovercraft_sim/ThrustCommand .*', beside=(SIMULATION,),
+         until='rostopic echo -n 1 --filter "m.right.commanded == 0.4" /hovercraft/engines'),
+    Rule(r'rosrun hovercraft_sim simulate .* --output reference\.bag',
+         then='rosrun hovercraft_sim compare reference.bag examples/flight_test/reference.bag'),
+    Rule(r'\. (devel|~/hovercraft)/setup\.bash', then=ROSRUN),
+    Rule(r'roslaunch hovercraft_sim sim\.launch record:=true .*', beside=(), until=RECORDS, drive=FORWARDS, then=HAS_THRUSTS),
+    Rule(r'roslaunch hovercraft_sim record\.launch .*', beside=(SIMULATION,), until=RECORDS, drive=FORWARDS, then=HAS_THRUSTS),
+    Rule(r'replay flight\.bag', says='identical'),
+    Rule(r'roslaunch hovercraft_sim replay_commands\.launch .*', beside=(SIMULATION,)),
+    Rule(r'roscore .*', until='/rosout_agg', stays=True),
+    Rule(r'markers_node .*', beside=(ROSCORE,), until='/hovercraft_markers/markers', stays=True),
+    Rule(r'rviz .*', skip='it opens a window'),
+    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --contacts FILE\.csv', skip=NAMED),
+    # CONTRIBUTING.md
+    Rule(r'cmake .* build/mine .*|build/mine/.*', skip='scripts/test builds and runs the same in build_release'),
+    Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
+    Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
+    # doc/time.md
+    Rule(r'rosrun dynamic_reconfigure dynparam .*', beside=(SIMULATION,)),
+    Rule(r'rosservice call .*', beside=(SIMULATION,), says='success: True'),
+    Rule(r'roslaunch hovercraft_sim sim\.launch lockstep:=true', beside=(), until='/hovercraft_sim/scenario', stays=True),
+    Rule(r'rosrun hovercraft_sim hold_heading(\.py)?( .*)?', beside=('roslaunch hovercraft_sim sim.launch lockstep:=true',),
+         until='rostopic echo -n 20 /hovercraft/commands'),
+    Rule(r'rosbag record .*', beside=(SIMULATION,), until='rostopic echo -n 50 /hovercraft/state'),
+    Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
+    Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
+    Rule(r'scripts/check_example build_release', skip=SCRIPTS_TEST),
+)

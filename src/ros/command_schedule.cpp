@@ -1,0 +1,59 @@
+#include "hovercraft_sim/ros/command_schedule.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <stdexcept>
+
+#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/run_events.h"
+
+namespace hovercraft_ros {
+
+using hovercraft::Command;
+using hovercraft::Tick;
+using hovercraft_sim::AppliedCommand;
+
+void CommandSchedule::add(const std::vector<Command>& commands) {
+  for (const Command& command : commands) waiting_.emplace(command.tick, command);
+}
+
+std::optional<Command> CommandSchedule::takeDue(Tick tick) {
+  const auto first = waiting_.begin();
+  if (first == waiting_.end() || first->first > tick) return std::nullopt;
+  const Command command = first->second;
+  waiting_.erase(first);
+  return command;
+}
+
+std::optional<Tick> CommandSchedule::next() const {
+  if (waiting_.empty()) return std::nullopt;
+  return waiting_.begin()->first;
+}
+
+std::vector<Command> scheduledCommands(const hovercraft::Scenario& scenario,
+                                       const hovercraft_sim::ScheduleCommands::Request& request,
+                                       std::uint32_t episode, Tick tick) {
+  const std::size_t vehicle = vehicleIndex(scenario, request.vehicle);
+  std::vector<Command> commands;
+  for (const AppliedCommand& wanted : request.commands) {
+    const auto require = [&](bool holds, const std::string& rule) {
+      if (holds) return;
+      throw std::invalid_argument(fmt::format("commands[{}]: {}", commands.size(), rule));
+    };
+    require(wanted.episode == episode,
+            fmt::format("episode = {}: must be that of the run, {}", wanted.episode, episode));
+    require(wanted.tick <= static_cast<std::uint64_t>(std::numeric_limits<Tick>::max()) &&
+                static_cast<Tick>(wanted.tick) >= tick,
+            fmt::format("tick = {}: must be {}, where the run stands, or later, and fit 63 bits",
+                        wanted.tick, tick));
+    require(wanted.engines != 0 && wanted.engines <= hovercraft::kAllEngines,
+            fmt::format("engines = {}: must be 1 to 7", wanted.engines));
+    require(std::isfinite(wanted.rear) && std::isfinite(wanted.left) && std::isfinite(wanted.right),
+            "a thrust must be finite");
+    commands.push_back(toCommand(wanted, vehicle));
+  }
+  return commands;
+}
+
+}  // namespace hovercraft_ros
