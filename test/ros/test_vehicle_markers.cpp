@@ -169,7 +169,8 @@ TEST(VehicleMarkers, AVisualIsDrawnInPlaceOfThePartsWithItsOwnColours) {
 TEST(VehicleMarkers, TheVisualOfAnObstacleLiesInItsFrame) {
   const hovercraft::Scenario scenario = hovercraft::testing::parsed(
       hovercraft::testing::validScenario() +
-      "world:\n  obstacles: {block: {box: {size: [1, 1, 1]}, position: [50, 0, 0], rpy: [0, 0, "
+      "    hull: {box: {size: [0.6, 0.4, 0.1]}}\nworld:\n  obstacles: {block: {box: {size: [1, 1, "
+      "1]}, position: [50, 0, 0], rpy: [0, 0, "
       "1.5707963267948966], visual: {file: /a.dae, position: [1, 0, 0]}}}\n");
   const std::vector<Marker> markers = obstacleMarkers(scenario, "world");
   ASSERT_EQ(markers.size(), 1U);
