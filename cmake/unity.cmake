@@ -22,3 +22,16 @@ function(hovercraft_unity target group)
     math(EXPR index "${index} + 1")
   endforeach()
 endfunction()
+
+# hovercraft_precompile(TARGET LEADER HEADER...): with HOVERCRAFT_UNITY, these headers are read once for all programs of the same LEADER, the
+# first of them. For programs of one source, which have nothing to be compiled together with.
+function(hovercraft_precompile target leader)
+  if(NOT HOVERCRAFT_UNITY OR CMAKE_VERSION VERSION_LESS 3.18)
+    return()
+  endif()
+  if(target STREQUAL leader)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${leader})
+  endif()
+endfunction()

@@ -9,11 +9,15 @@ import pathlib
 import re
 import sys
 
+PRECOMPILED = re.compile(r' -Winvalid-pch\b| -(?:Xclang )?include(?:-pch)? (?:-Xclang )?\S*/cmake_pch\.hxx\S*')
 INCLUDED = re.compile(r'^#include "(/.+\.cpp)"$', re.MULTILINE)
 
 
 def entries_of(entry):
-    """The entry itself, or one for each source that its file includes."""
+    """The entry itself, or one for each source that its file includes; without precompiled headers."""
+    entry = dict(entry, command=PRECOMPILED.sub('', entry['command']))
+    if 'cmake_pch.' in entry['file']:
+        return []
     file = pathlib.Path(entry['directory'], entry['file'])
     if file.parent.name != 'Unity':
         return [entry]
