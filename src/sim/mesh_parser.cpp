@@ -24,7 +24,7 @@ constexpr double kMostDensity = 3e4;   // kg/m³
 /// The path that a text behind `key` names, without regard to whether it is there.
 std::string resolvedPath(const ConfigReader& reader, const char* key,
                          const ScenarioSource& source) {
-  const std::string file = reader.text(key);
+  std::string file = reader.text(key);
   if (std::filesystem::path(file).is_absolute()) return file;
   if (source.directory.empty()) {
     reader.fail(key,
@@ -57,7 +57,7 @@ void passOn(const std::vector<std::string>& notes, const ScenarioSource& source)
 
 /// A URL for RViz: a path becomes file://.
 std::string resourceOf(const ConfigReader& reader, const char* key, const ScenarioSource& source) {
-  const std::string file = reader.text(key);
+  std::string file = reader.text(key);
   if (file.find("://") != std::string::npos) return file;
   return "file://" + resolvedPath(reader, key, source);
 }

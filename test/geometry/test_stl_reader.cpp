@@ -16,7 +16,6 @@ namespace {
 
 using testing::boxMesh;
 using testing::contentOf;
-using testing::messageOf;
 using testing::messageOfParsing;
 using testing::stlBytes;
 
