@@ -17,11 +17,10 @@ namespace {
 
 using testing::boxMesh;
 using testing::joined;
+using testing::kOne;
 using testing::moved;
 using testing::starMesh;
 using testing::turnedOver;
-
-const Vector3 kOne(1.0, 1.0, 1.0);
 
 PolygonMesh unitCube() {
   return boxMesh(Vector3::Zero(), kOne);

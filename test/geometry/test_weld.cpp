@@ -14,8 +14,7 @@ namespace hovercraft {
 namespace {
 
 using testing::boxMesh;
-
-const Vector3 kOne(1.0, 1.0, 1.0);
+using testing::kOne;
 
 /// A unit cube each of whose faces has vertices of its own; the sixth one is moved.
 PolygonMesh looseCube(const Vector3& shift) {
