@@ -70,7 +70,7 @@ packages_for() {
 packages_of_debian() {
   case "$1" in
     build) echo catkin ros-message-generation libdiagnostic-updater-dev \
-      libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libnav-msgs-dev \
+      libbz2-dev libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libnav-msgs-dev \
       librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev \
       libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs ros-std-srvs \
       python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-std-srvs \

@@ -10,7 +10,10 @@ loose body; thrusts are not in it. No ROS master is needed.
 
 import argparse
 import csv
+import io
 import math
+import os
+import stat
 import sys
 
 import matplotlib
@@ -218,7 +221,44 @@ def draw(run, output):
         axes.grid(True, color='#dddddd', linewidth=0.7)
         axes.set_axisbelow(True)
     first.set_xlim(0, max(run.time[-1], 1e-9))
-    figure.savefig(output, dpi=110)
+    write_picture(output, figure, dpi=110)
+
+
+def write_picture(path, figure, **options):
+    """Writes a picture whole or not at all, as the tools write their files: beside it first, under a name that is new,
+    then in its place; only a regular file is replaced, behind a link the one that it leads to.
+    """
+    if os.path.lexists(path):
+        if not os.path.isfile(path):
+            raise ValueError(f'{path}: cannot be written: must be a regular file or a name that is free')
+        if not os.access(path, os.W_OK):
+            raise ValueError(f'{path}: cannot be written: permission denied')
+        path = os.path.realpath(path)
+    picture = io.BytesIO()
+    figure.savefig(picture, format=os.path.splitext(path)[1][1:] or 'png', **options)
+    partial, file = _new_file(path + '.partial')
+    try:
+        with file:
+            file.write(picture.getbuffer())
+            if os.path.exists(path):
+                os.fchmod(file.fileno(), stat.S_IMODE(os.stat(path).st_mode) & 0o777)
+            file.flush()
+            os.fsync(file.fileno())
+        os.rename(partial, path)
+    except OSError:
+        os.unlink(partial)
+        raise
+
+
+def _new_file(name):
+    """(name, file) of a file that was not there: the name itself, or with the first number that is free."""
+    for number in range(1, 1001):
+        candidate = name if number == 1 else f'{name}.{number}'
+        try:
+            return candidate, open(candidate, 'xb')
+        except FileExistsError:
+            continue
+    raise ValueError(f'{name}: there are 1000 partial files beside it already')
 
 
 def main():
@@ -229,6 +269,8 @@ def main():
     arguments = parser.parse_args()
     read = read_csv if arguments.run.lower().endswith('.csv') else read_bag
     try:
+        if os.path.exists(arguments.output) and os.path.samefile(arguments.run, arguments.output):
+            raise ValueError(f'--output = {arguments.output}: must not be the file that is read')
         run = read(arguments.run, arguments.vehicle)
         draw(run, arguments.output)
     except (UnicodeDecodeError, csv.Error) as error:

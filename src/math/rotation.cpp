@@ -60,18 +60,23 @@ double orthogonalityError(const Matrix3& R) {
   return worst;
 }
 
-Matrix3 nearestRotation(const Matrix3& A) {
+std::optional<Matrix3> findNearestRotation(const Matrix3& A) {
   Matrix3 R = A;
   for (int iteration = 0; iteration < kMaxPolarIterations; ++iteration) {
     const double det = determinant(R);
-    demand(det > 0.0 && std::isfinite(det), "a rotation matrix has lost its orientation");
+    if (!(det > 0.0 && std::isfinite(det))) return std::nullopt;
     const double before = orthogonalityError(R);
     R = 0.5 * (R + cofactor(R) / det);
     // The error is squared by each step: one step from here ends below the rounding error.
     if (before < kPolarLastStep) return R;
   }
-  demand(false, "the polar decomposition of a rotation did not converge");
-  return R;
+  return std::nullopt;
+}
+
+Matrix3 nearestRotation(const Matrix3& A) {
+  const std::optional<Matrix3> R = findNearestRotation(A);
+  demand(R.has_value(), "a rotation matrix has lost its orientation");
+  return *R;
 }
 
 }  // namespace hovercraft

@@ -5,6 +5,9 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "hovercraft_sim/ros/bag_check.h"
+#include "hovercraft_sim/sim/input_file.h"
+
 namespace hovercraft_ros {
 
 bool isBag(const std::string& path) {
@@ -17,11 +20,14 @@ bool isBag(const std::string& path) {
 }
 
 void openForReading(rosbag::Bag& bag, const std::string& path) {
+  {
+    const hovercraft::InputFile regular(path, hovercraft::InputKind::kFile);
+    std::ifstream file(path, std::ios::binary);
+    checkBag(file, path);
+  }
   try {
     bag.open(path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw std::invalid_argument(path + ": the bag has no index; it was not closed: rosbag reindex");
-  } catch (const rosbag::BagException& error) {
+  } catch (const ros::Exception& error) {
     throw std::invalid_argument(fmt::format("{}: cannot be read as a bag: {}", path, error.what()));
   }
 }

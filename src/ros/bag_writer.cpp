@@ -45,7 +45,7 @@ BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenar
     vehicles_.emplace_back(scenario, vehicle);
   }
   try {
-    bag_->open(file_.path(), rosbag::bagmode::Write);
+    bag_->open(file_.openablePath(), rosbag::bagmode::Write);
     // Less is written, and less often: rosbag seeks before each message, which empties the buffer
     // of what is not compressed.
     bag_->setCompression(rosbag::compression::LZ4);

@@ -92,7 +92,8 @@ class VehicleStream {
  private:
   Command commandOf(const rosbag::MessageInstance& message) {
     if (message.getTopic() == topics_.applied) return appliedOf(message);
-    const std::int64_t time_ns = (message.getTime() - begin_).toNSec();
+    // Not as a ros::Duration, which has 32 bits for the seconds, one of them for the sign.
+    const auto time_ns = static_cast<std::int64_t>(message.getTime().toNSec() - begin_.toNSec());
     const Tick tick = hovercraft::firstTickAt(time_ns, step_ns_);
     std::optional<Command> command;
     if (message.getTopic() == topics_.thrust) {

@@ -43,7 +43,9 @@ Tick ticksOfDuration(const std::string& text, const Scenario& scenario) {
   if (!(seconds.value > 0.0)) fail("must be greater than 0");
   const double most = hovercraft::kMaxNanoseconds * 1e-9;
   if (seconds.value > most) fail(fmt::format("must be at most {:.0f} s", most));
-  return hovercraft::firstTickAt(hovercraft::parseNanoseconds(text), scenario.step_ns);
+  const std::int64_t duration_ns = hovercraft::parseNanoseconds(text);
+  if (duration_ns == 0) fail("must be at least a nanosecond, 1e-9 s");
+  return hovercraft::firstTickAt(duration_ns, scenario.step_ns);
 }
 
 /// Reads the commands once to find where they end: a file is then known to be good before anything
@@ -144,17 +146,15 @@ Scenario loadScenarioFile(const std::string& path, const hovercraft::OverrideLis
 std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
                                                         const Scenario& scenario) {
   if (isBag(path)) return std::make_unique<BagCommandSource>(path, scenario);
-  return std::make_unique<hovercraft::CsvCommandSource>(path, scenario);
+  return std::make_unique<hovercraft::CsvCommandSource>(path, scenario,
+                                                        hovercraft::InputKind::kFileOrStream);
 }
 
 std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
                                                   const Scenario& scenario) {
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".bag") return std::make_unique<BagWriter>(path, scenario);
-  std::error_code ignored;
-  const bool is_device = fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) &&
-                         !fs::is_directory(path, ignored);
-  if (extension != ".csv" && path != "-" && !is_device) {
+  if (extension != ".csv" && path != "-") {
     throw std::invalid_argument(
         fmt::format("--output = {}: must end in .csv or .bag, or be - for CSV on the standard "
                     "output",

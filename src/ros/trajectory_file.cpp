@@ -26,6 +26,9 @@ using hovercraft::TrajectorySample;
 
 namespace {
 
+/// 146 years: sums and differences of such times fit 64 bits.
+constexpr std::int64_t kMostTimeNs = std::int64_t{1} << 62U;
+
 std::int64_t toNs(const ros::Time& stamp) {
   return static_cast<std::int64_t>(stamp.toNSec());
 }
@@ -118,6 +121,9 @@ Trajectory SpaceReader::fromState() {
   bool shows_where_it_stood = false;
   forEach<hovercraft_sim::State>(kStateTopic, [&](const auto& state,
                                                   const rosbag::MessageInstance& instance) {
+    if (state.tick > static_cast<std::uint64_t>(kMostTimeNs)) {
+      failAt(path_, instance, fmt::format("tick = {}: must fit 62 bits", state.tick));
+    }
     if (state.episode != first_episode && trajectory.samples.size() == 1 && !shows_where_it_stood) {
       shows_where_it_stood = true;
       trajectory.samples.clear();
@@ -140,8 +146,8 @@ Trajectory SpaceReader::fromState() {
     stamps_ns.push_back(toNs(state.header.stamp));
   });
   std::vector<TrajectorySample>& samples = trajectory.samples;
-  if (samples.size() == 1) {
-    samples.front().time_ns = stamps_ns.front();
+  if (samples.size() < 2) {
+    for (TrajectorySample& sample : samples) sample.time_ns = stamps_ns.front();
     return trajectory;
   }
   const std::int64_t ticks = samples.back().time_ns - samples.front().time_ns;
@@ -150,6 +156,10 @@ Trajectory SpaceReader::fromState() {
                              stamps_ns.back() / ticks == stamps_ns.front();
   if (borrows_stamp) stamps_ns.front() = 0;
   const std::int64_t step_ns = (stamps_ns.back() - stamps_ns.front()) / ticks;
+  if (step_ns < 1 || samples.back().time_ns > kMostTimeNs / step_ns) {
+    throw std::invalid_argument(
+        fmt::format("{}: {}: stamps must go on with the ticks", path_, topic(kStateTopic)));
+  }
   const std::int64_t epoch_ns = stamps_ns.front() - samples.front().time_ns * step_ns;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].time_ns *= step_ns;

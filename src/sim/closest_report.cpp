@@ -23,7 +23,11 @@ Pose poseFrom(const std::vector<double>& numbers, const std::string& key) {
   }
   const Quaternion q{numbers[6], {numbers[3], numbers[4], numbers[5]}};
   const Vector3 p(numbers[0], numbers[1], numbers[2]);
-  if (!p.allFinite()) throw std::invalid_argument("--" + key + ": the position is not finite");
+  if (!(p.cwiseAbs().maxCoeff() <= kFarthest)) {
+    throw std::invalid_argument(
+        fmt::format("--{}: x, y, z = {}, {}, {}: each must be a number from -{:.0e} to {:.0e} m",
+                    key, p.x(), p.y(), p.z(), kFarthest, kFarthest));
+  }
   if (!(std::abs(norm(q) - 1.0) <= kUnitLength)) {
     throw std::invalid_argument(
         fmt::format("--{}: the quaternion has the length {}, it must be 1", key, norm(q)));

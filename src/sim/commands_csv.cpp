@@ -13,8 +13,11 @@ constexpr std::size_t kVehicleColumn = 1;
 
 }  // namespace
 
-CsvCommandSource::CsvCommandSource(const std::string& path, const Scenario& scenario)
-    : reader_(path), step_ns_(scenario.step_ns), has_vehicle_column_(reader_.hasColumn("vehicle")) {
+CsvCommandSource::CsvCommandSource(const std::string& path, const Scenario& scenario,
+                                   InputKind kind)
+    : reader_(path, kind),
+      step_ns_(scenario.step_ns),
+      has_vehicle_column_(reader_.hasColumn("vehicle")) {
   const char* with_vehicle = "time,vehicle,rear,left,right";
   if (scenario.vehicles.size() == 1) {
     reader_.requireHeader({"time,rear,left,right", with_vehicle});

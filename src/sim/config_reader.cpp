@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <utility>
 
+#include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft {
@@ -47,14 +49,18 @@ const NumberRule kPositive = {[](double x) { return x > 0.0; }, "must be greater
 const NumberRule kNotNegative = {[](double x) { return x >= 0.0; }, "must be 0 or greater"};
 const NumberRule kNotPositive = {[](double x) { return x <= 0.0; }, "must be 0 or less"};
 
-ConfigReader::ConfigReader(ConfigNode node, std::string source, std::string path)
-    : node_(std::move(node)), source_(std::move(source)), path_(std::move(path)) {
+const NumberRule kCoordinate = {[](double x) { return std::abs(x) <= kFarthest; },
+                                "must be at most 1e30, of either sign"};
+
+ConfigReader::ConfigReader(ConfigNode node, std::string source, std::string path, bool quotes)
+    : node_(std::move(node)), source_(std::move(source)), path_(std::move(path)), quotes_(quotes) {
   if (node_.isNull()) fail("", "must be a map of keys; it is empty");
   if (!node_.isMap()) fail("", "must be a map of keys");
 }
 
 std::string ConfigReader::where(const std::string& key) const {
   const std::string path = pathOf(key);
+  if (!quotes_) return path.empty() ? source_ : source_ + ": " + path;
   const ConfigNode* const found = key.empty() ? &node_ : node_.find(key);
   const std::string value = found == nullptr ? "" : shown(*found);
   return onOneLine(fmt::format("{}: {}{}{}", source_, path.empty() ? "the scenario" : path,
@@ -73,7 +79,7 @@ std::string ConfigReader::pathOf(const std::string& key) const {
 void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
   for (const auto& [key, value] : node_.members()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
-    fail(key, fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
+    fail(quotes_ ? key : "", fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
   }
 }
 
@@ -93,13 +99,13 @@ const ConfigNode& ConfigReader::required(const std::string& key) const {
 }
 
 ConfigReader ConfigReader::map(const std::string& key) const {
-  return {required(key), source_, pathOf(key)};
+  return {required(key), source_, pathOf(key), quotes_};
 }
 
 std::vector<std::pair<std::string, ConfigReader>> ConfigReader::maps() const {
   std::vector<std::pair<std::string, ConfigReader>> readers;
   for (const auto& [key, value] : node_.members()) {
-    readers.emplace_back(key, ConfigReader(value, source_, pathOf(key)));
+    readers.emplace_back(key, ConfigReader(value, source_, pathOf(key), quotes_));
   }
   std::sort(readers.begin(), readers.end(),
             [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -111,7 +117,7 @@ std::vector<ConfigReader> ConfigReader::list(const char* key) const {
   if (list.items().empty()) fail(key, "must be a list, not empty");
   std::vector<ConfigReader> readers;
   for (std::size_t i = 0; i < list.items().size(); ++i) {
-    readers.emplace_back(list.items()[i], source_, fmt::format("{}[{}]", pathOf(key), i));
+    readers.emplace_back(list.items()[i], source_, fmt::format("{}[{}]", pathOf(key), i), quotes_);
   }
   return readers;
 }
@@ -163,6 +169,16 @@ Vector3 ConfigReader::vector(const char* key, const NumberRule& rule) const {
     result[i] = numberAt(list.items()[static_cast<std::size_t>(i)], key, rule);
   }
   return result;
+}
+
+double ConfigReader::length(const char* key) const {
+  number(key, kPositive);
+  return number(key, kCoordinate);
+}
+
+Vector3 ConfigReader::lengths(const char* key) const {
+  vector(key, kPositive);
+  return vector(key, kCoordinate);
 }
 
 Vector3 ConfigReader::vectorOr(const Vector3& fallback, const char* key,

@@ -1,9 +1,7 @@
 #include "hovercraft_sim/sim/csv_reader.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +13,8 @@
 namespace hovercraft {
 namespace {
 
+constexpr std::size_t kLongestLine = 65536;  // bytes: no row of numbers is a tenth as long
+constexpr std::size_t kLongestShown = 80;    // bytes of a field in a message
 constexpr const char* kBlanks = " \t\r";
 constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -22,17 +22,18 @@ bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
+/// What a message shows of a text: no more than a field, and nothing that a terminal obeys.
+std::string shown(std::string text) {
+  if (text.size() > kLongestShown) text = text.substr(0, kLongestShown) + "...";
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
+  return text;
+}
+
 }  // namespace
 
-CsvReader::CsvReader(std::string path) : path_(std::move(path)) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path_, ignored)) {
-    throw std::invalid_argument(fmt::format("{}: cannot be read: it is a folder", path_));
-  }
-  file_.open(path_, std::ios::binary);
-  if (!file_) {
-    throw std::invalid_argument(fmt::format("{}: cannot be read: {}", path_, std::strerror(errno)));
-  }
+CsvReader::CsvReader(std::string path, InputKind kind)
+    : path_(std::move(path)), file_(path_, kind) {
   if (!readLine()) throw std::invalid_argument(path_ + ": the file is empty; a header is missing");
   if (line_.rfind(kByteOrderMark, 0) == 0) line_.erase(0, std::strlen(kByteOrderMark));
   split();
@@ -42,8 +43,8 @@ CsvReader::CsvReader(std::string path) : path_(std::move(path)) {
 void CsvReader::requireHeader(const std::vector<std::string>& headers) const {
   const std::string found = fmt::format("{}", fmt::join(header_, ","));
   if (std::find(headers.begin(), headers.end(), found) != headers.end()) return;
-  throw std::invalid_argument(
-      fmt::format("{}:1: header = {}: must be {}", path_, found, fmt::join(headers, " or ")));
+  throw std::invalid_argument(fmt::format("{}:1: header = {}: must be {}", path_, shown(found),
+                                          fmt::join(headers, " or ")));
 }
 
 bool CsvReader::hasColumn(const std::string& name) const {
@@ -51,12 +52,9 @@ bool CsvReader::hasColumn(const std::string& name) const {
 }
 
 bool CsvReader::readLine() {
-  if (std::getline(file_, line_)) {
-    ++line_number_;
-    return true;
-  }
-  if (file_.bad()) throw std::invalid_argument(path_ + ": cannot be read to its end");
-  return false;
+  if (!file_.readLine(line_, kLongestLine)) return false;
+  ++line_number_;
+  return true;
 }
 
 void CsvReader::split() {
@@ -109,7 +107,7 @@ std::int64_t CsvReader::timeNs(std::size_t column) const {
 
 void CsvReader::fail(std::size_t column, const std::string& rule) const {
   throw std::invalid_argument(fmt::format("{}:{}: {} = {}: {}", path_, line_number_,
-                                          header_[column], fields_[column], rule));
+                                          header_[column], shown(fields_[column]), rule));
 }
 
 void CsvReader::fail(const std::string& rule) const {

@@ -13,6 +13,7 @@
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_parser.h"
@@ -72,13 +73,13 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   if (part.has("box")) {
     const ConfigReader box = part.map("box");
     box.allowOnly({"size"});
-    const Vector3 size = box.vector("size", kPositive);
+    const Vector3 size = box.lengths("size");
     return {{BoxShape{size}}, boxMassProperties(checkedVolume(boxVolume(size), box), size)};
   }
   if (part.has("sphere")) {
     const ConfigReader sphere = part.map("sphere");
     sphere.allowOnly({"radius"});
-    const double radius = sphere.number("radius", kPositive);
+    const double radius = sphere.length("radius");
     return {{SphereShape{radius}},
             sphereMassProperties(checkedVolume(sphereVolume(radius), sphere), radius)};
   }
@@ -90,8 +91,8 @@ ParsedPart parseShape(const ConfigReader& part, const ScenarioSource& source) {
   const bool is_cone = part.has("cone");
   const ConfigReader round = part.map(is_cone ? "cone" : "cylinder");
   round.allowOnly({"radius", "length"});
-  const double radius = round.number("radius", kPositive);
-  const double length = round.number("length", kPositive);
+  const double radius = round.length("radius");
+  const double length = round.length("length");
   if (is_cone) {
     return {{ConeShape{radius, length}},
             coneMassProperties(checkedVolume(coneVolume(radius, length), round), radius, length)};
@@ -125,7 +126,7 @@ std::pair<PartScenario, MassProperties> parsePart(const ConfigReader& reader,
   if (source.note && !hint.empty() && std::holds_alternative<MeshShape>(part.shape)) {
     source.note(reader.where("mesh") + ": " + hint);
   }
-  part.p_HP = reader.vectorOr(Vector3::Zero(), "position");
+  part.p_HP = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   part.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
   parsed.unit.I_BBo_B *= part.mass / parsed.unit.mass;
   parsed.unit.mass = part.mass;
@@ -148,7 +149,7 @@ void parseMass(const ConfigReader& reader, const ScenarioSource& source, Vehicle
     return;
   }
   vehicle.mass_properties.mass = reader.number("mass", kPositive);
-  vehicle.mass_properties.p_HB = reader.vectorOr(Vector3::Zero(), "center_of_mass");
+  vehicle.mass_properties.p_HB = reader.vectorOr(Vector3::Zero(), "center_of_mass", kCoordinate);
   vehicle.mass_properties.I_BBo_B = parseInertia(reader);
   checkInertia(vehicle.mass_properties.I_BBo_B, reader.where("inertia"));
 }
@@ -157,7 +158,7 @@ EngineParameters parseEngine(const ConfigReader& reader) {
   reader.allowOnly(
       {"position", "direction", "min_thrust", "max_thrust", "time_constant", "timeout"});
   EngineParameters engine;
-  engine.p_HE = reader.vector("position");
+  engine.p_HE = reader.vector("position", kCoordinate);
   engine.direction = reader.vector("direction");
   if (std::abs(norm(engine.direction) - 1.0) > kUnitLength) {
     reader.fail("direction",
@@ -173,7 +174,7 @@ EngineParameters parseEngine(const ConfigReader& reader) {
 
 void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& vehicle) {
   reader.allowOnly({"position", "rpy", "velocity", "angular_velocity"});
-  vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position");
+  vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   vehicle.initial_rpy = reader.vectorOr(Vector3::Zero(), "rpy");
   vehicle.initial_v_WB = reader.vectorOr(Vector3::Zero(), "velocity");
   vehicle.initial_w_WB = reader.vectorOr(Vector3::Zero(), "angular_velocity");
@@ -262,18 +263,10 @@ Scenario loadScenario(const std::string& path,
                       std::function<std::string(const std::string&)> package_folder,
                       const OverrideList& overrides, std::function<void(const std::string&)> note) {
   std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(path, unreadable)) {
+  if (!std::filesystem::exists(path, unreadable)) {
     throw std::invalid_argument(path + ": there is no such file");
   }
-  std::ifstream stream(path, std::ios::binary);
-  std::string text;
-  std::array<char, 65536> chunk{};
-  // treeOf() refuses what is longer.
-  while (stream && text.size() <= kLongestYamlText) {
-    stream.read(chunk.data(), chunk.size());
-    text.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
+  const std::string text = readWholeFile(path, kLongestYamlText);
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   return parseScenario(text, {path, folder.string(), std::move(package_folder), std::move(note)},
                        overrides);

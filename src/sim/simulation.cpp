@@ -20,8 +20,8 @@ bool isRotation(const Quaternion& q_WB) {
   // Components beyond 1e154 have an infinite norm, and end as 0 when they are divided by it.
   return std::abs(squaredNorm(q_WB) - 1.0) < kUnitLength;
 }
-bool isRotation(const Matrix3& /*R_WB*/) {
-  return true;  // nearestRotation() returns nothing else
+bool isRotation(const Matrix3& R_WB) {
+  return !std::isnan(R_WB(0, 0));  // renormalized() gives a rotation, or NaN
 }
 
 template <class Orientation>
@@ -256,11 +256,15 @@ void Simulation::stepWorld() {
   moving_.insert(moving_.end(), state_.bodies.begin(), state_.bodies.end());
   records_.clear();
   contacts_ = state_.contacts;
-  world_->step(drives_, moving_, contacts_, records_);
+  const auto fail = [this, count](std::size_t body) {
+    failAsDiverged(body < count ? "vehicles" : "world.bodies",
+                   world_->nameOf(static_cast<std::int32_t>(body)));
+  };
+  const int lost = world_->step(drives_, moving_, contacts_, records_);
+  if (lost != World::kNone) fail(static_cast<std::size_t>(lost));
   for (std::size_t i = 0; i < moving_.size(); ++i) {
-    if (!std::visit([](auto& body) { return settle(body); }, moving_[i])) {
-      failAsDiverged(i < count ? "vehicles" : "world.bodies", world_->nameOf(static_cast<int>(i)));
-    }
+    const bool is_sound = std::visit([](auto& body) { return settle(body); }, moving_[i]);
+    if (!is_sound || !isInReach(moving_[i])) fail(i);
   }
   for (std::size_t i = 0; i < count; ++i) {
     state_.vehicles[i].body = moving_[i];

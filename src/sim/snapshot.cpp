@@ -1,24 +1,20 @@
 #include "hovercraft_sim/sim/snapshot.h"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <sstream>
-#include <stdexcept>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
-#include "hovercraft_sim/sim/config_reader.h"
-#include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/sim/input_file.h"
+#include "hovercraft_sim/sim/output_file.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
 namespace {
 
-const std::vector<std::string> kFrameNames = {"world", "body"};
+// A snapshot of a thousand bodies that all touch has a megabyte.
+constexpr std::size_t kMostSnapshotBytes = 16777216;
 
 /// The orientation as named vectors: a quaternion as scalar and vector, a matrix as its columns.
 std::string orientationText(const Quaternion& q) {
@@ -27,23 +23,6 @@ std::string orientationText(const Quaternion& q) {
 std::string orientationText(const Matrix3& R) {
   return fmt::format("x_axis: {}, y_axis: {}, z_axis: {}", yamlVector(R.col(0)),
                      yamlVector(R.col(1)), yamlVector(R.col(2)));
-}
-
-Quaternion parseQuaternion(const ConfigReader& reader) {
-  return {reader.number("q_s"), reader.vector("q_v")};
-}
-Matrix3 parseMatrix(const ConfigReader& reader) {
-  Matrix3 R;
-  R.col(0) = reader.vector("x_axis");
-  R.col(1) = reader.vector("y_axis");
-  R.col(2) = reader.vector("z_axis");
-  return R;
-}
-
-template <class Orientation>
-RigidBodyState<Orientation> parseBody(const ConfigReader& body, const Orientation& orientation) {
-  return {body.vector("position"), orientation, body.vector("momentum"),
-          body.vector("angular_momentum")};
 }
 
 std::string bodyText(const BodyState& state) {
@@ -98,98 +77,6 @@ std::string contactText(const ContactMemory& contact) {
   return yaml + (contact.count > 0 ? "]}\n" : "}\n");
 }
 
-ContactMemory parseContact(const ConfigReader& reader) {
-  const auto whole = [&reader](const char* key) {
-    return static_cast<std::int32_t>(reader.wholeNumberOr(0, key));
-  };
-  ContactMemory contact;
-  contact.a = whole("a");
-  contact.b = whole("b");
-  contact.features = {true,
-                      {static_cast<FeatureKind>(whole("kind_a")), whole("index_a")},
-                      {static_cast<FeatureKind>(whole("kind_b")), whole("index_b")},
-                      {whole("hint_a"), whole("hint_b")}};
-  contact.resting = reader.flagOr(false, "resting");
-  if (!reader.has("points")) return contact;
-  for (const ConfigReader& point : reader.list("points")) {
-    if (contact.count == ContactManifold::kMaxPoints) reader.fail("points", "must be at most 8");
-    const auto k = static_cast<std::size_t>(contact.count++);
-    contact.p_AC[k] = point.vector("p");
-    contact.force_B_W[k] = point.vector("force");
-  }
-  return contact;
-}
-
-BodyState parseBodyState(const ConfigReader& body, OrientationKind kind) {
-  if (kind == OrientationKind::kQuaternion) return parseBody(body, parseQuaternion(body));
-  return parseBody(body, parseMatrix(body));
-}
-
-VehicleState parseVehicle(const ConfigReader& reader, OrientationKind kind) {
-  reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
-  VehicleState state;
-  state.body = parseBodyState(reader.map("body"), kind);
-  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    const ConfigReader engine = reader.map(kEngineNames[i]);
-    engine.allowOnly({"commanded", "thrust", "command_tick"});
-    state.engines[i] = {engine.number("commanded"), engine.number("thrust"),
-                        engine.wholeNumberOr(EngineState::kNever, "command_tick")};
-  }
-  return state;
-}
-
-std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenario) {
-  std::vector<std::string> names;
-  for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
-  return reader.choiceOr(0, "vehicle", names);
-}
-
-/// @param earliest the tick of the command before it, or of the snapshot.
-Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick earliest) {
-  reader.allowOnly({"tick", "vehicle", "engines", "thrusts"});
-  Command command;
-  command.tick = reader.wholeNumberOr(-1, "tick");
-  if (command.tick < earliest) {
-    reader.fail("tick", fmt::format("must be {} or greater, in ascending order", earliest));
-  }
-  command.vehicle = parseVehicleName(reader, scenario);
-  const std::int64_t engines = reader.wholeNumberOr(0, "engines");
-  if (engines < 1 || engines > kAllEngines) {
-    reader.fail("engines", "must be 1 to 7: the sum of rear 1, left 2, right 4");
-  }
-  command.engines = static_cast<EngineMask>(engines);
-  command.thrusts = reader.vector("thrusts");
-  return command;
-}
-
-CommandLog parseCommands(const ConfigReader& reader, const Scenario& scenario, Tick earliest) {
-  CommandLog commands;
-  if (!reader.has("commands")) return commands;
-  for (const ConfigReader& entry : reader.list("commands")) {
-    const Command command = parseCommand(entry, scenario, earliest);
-    commands.push(command);
-    earliest = command.tick;
-  }
-  return commands;
-}
-
-ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario) {
-  reader.allowOnly({"vehicle", "frame", "force", "torque", "end_tick"});
-  ExternalWrench external;
-  external.vehicle = parseVehicleName(reader, scenario);
-  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", kFrameNames));
-  external.wrench = {reader.vector("force"), reader.vector("torque")};
-  external.end_tick = reader.wholeNumberOr(0, "end_tick");
-  return external;
-}
-
-/// Another version may have written the text with other digits or quotes.
-bool isTextOf(const Scenario& scenario, const std::string& text, const std::string& source) {
-  const std::string expected = toYaml(scenario);
-  return text == expected ||
-         toYaml(parseScenario(text, {source + ": scenario", "", {}})) == expected;
-}
-
 }  // namespace
 
 std::string toSnapshot(const Simulation& simulation) {
@@ -219,70 +106,12 @@ std::string toSnapshot(const Simulation& simulation) {
   return yaml;
 }
 
-SimulationState parseSnapshot(const std::string& text, const std::string& source,
-                              const Scenario& scenario) {
-  const FloatingPointEnvironment environment;
-  const ConfigNode tree = treeOf(text, source);
-  const ConfigReader reader(tree, source);
-  reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",
-                    "commands", "scenario"});
-  if (!isTextOf(scenario, reader.text("scenario"), source)) {
-    throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
-  }
-  SimulationState state;
-  state.tick = reader.wholeNumberOr(-1, "tick");
-  if (state.tick < 0) reader.fail("tick", "must be 0 or greater");
-  state.seed = reader.wholeNumberOr(scenario.seed, "seed");
-  const ConfigReader vehicles = reader.map("vehicles");
-  for (const VehicleScenario& vehicle : scenario.vehicles) {
-    state.vehicles.push_back(parseVehicle(vehicles.map(vehicle.name), scenario.orientation));
-  }
-  if (reader.has("wrenches")) {
-    for (const ConfigReader& wrench : reader.list("wrenches")) {
-      state.wrenches.push_back(parseWrench(wrench, scenario));
-    }
-  }
-  if (scenario.world && !scenario.world->bodies.empty()) {
-    const ConfigReader bodies = reader.map("bodies");
-    for (const VehicleScenario& body : scenario.world->bodies) {
-      state.bodies.push_back(parseBodyState(bodies.map(body.name), scenario.orientation));
-    }
-  }
-  if (reader.has("contacts")) {
-    for (const ConfigReader& contact : reader.list("contacts")) {
-      state.contacts.push_back(parseContact(contact));
-    }
-  }
-  state.commands = parseCommands(reader, scenario, state.tick);
-  Simulation check(scenario);
-  check.restore(state);
-  if (reader.text("hash") != fmt::format("{:016x}", check.hash())) {
-    reader.fail("hash", "is not that of the state: the snapshot was changed");
-  }
-  return state;
-}
-
 void saveSnapshot(const Simulation& simulation, const std::string& path) {
-  const std::string unfinished = path + ".partial";
-  std::ofstream stream(unfinished, std::ios::binary);
-  stream << toSnapshot(simulation);
-  stream.close();
-  if (!stream || std::rename(unfinished.c_str(), path.c_str()) != 0) {
-    const std::string reason = std::strerror(errno);
-    std::remove(unfinished.c_str());
-    throw std::invalid_argument(fmt::format("{}: cannot be written: {}", path, reason));
-  }
+  writeWholeFile(path, toSnapshot(simulation));
 }
 
 std::string readSnapshotText(const std::string& path) {
-  std::error_code no_such_path;  // what is not there cannot be read either
-  if (std::filesystem::is_directory(path, no_such_path)) {
-    throw std::invalid_argument(path + ": cannot be read: it is a directory, must be a file");
-  }
-  std::ifstream stream(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (!stream.is_open() || stream.bad()) throw std::invalid_argument(path + ": cannot be read");
-  return text;
+  return readWholeFile(path, kMostSnapshotBytes);
 }
 
 }  // namespace hovercraft

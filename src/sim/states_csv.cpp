@@ -96,7 +96,7 @@ Trajectory& trajectoryOf(std::vector<Trajectory>& trajectories, const std::strin
 
 std::vector<Trajectory> readStatesCsv(const std::string& path) {
   const FloatingPointEnvironment environment;
-  CsvReader reader(path);
+  CsvReader reader(path, InputKind::kFileOrStream);
   reader.requireHeader(
       {fmt::format("time,{}", kMotionColumns), fmt::format("time,vehicle,{}", kMotionColumns)});
   const bool has_vehicle = reader.hasColumn("vehicle");

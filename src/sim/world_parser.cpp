@@ -63,7 +63,7 @@ PointsShape parsePoints(const ConfigReader& reader) {
   PointsShape shape;
   for (const ConfigReader& point : reader.list("points")) {
     point.allowOnly({"p"});
-    shape.points.push_back(point.vector("p"));
+    shape.points.push_back(point.vector("p", kCoordinate));
   }
   return shape;
 }
@@ -79,23 +79,22 @@ HullScenario parseHull(const ConfigReader& reader, const ScenarioSource& source)
   if (reader.has("box")) {
     const ConfigReader box = reader.map("box");
     box.allowOnly({"size"});
-    hull.shape = BoxShape{box.vector("size", kPositive)};
+    hull.shape = BoxShape{box.lengths("size")};
   } else if (reader.has("sphere")) {
     const ConfigReader sphere = reader.map("sphere");
     sphere.allowOnly({"radius"});
-    hull.shape = SphereShape{sphere.number("radius", kPositive)};
+    hull.shape = SphereShape{sphere.length("radius")};
   } else if (reader.has("cylinder")) {
     const ConfigReader cylinder = reader.map("cylinder");
     cylinder.allowOnly({"radius", "length"});
-    hull.shape =
-        CylinderShape{cylinder.number("radius", kPositive), cylinder.number("length", kPositive)};
+    hull.shape = CylinderShape{cylinder.length("radius"), cylinder.length("length")};
   } else if (reader.has("mesh")) {
     const ConfigReader mesh = reader.map("mesh");
     hull.shape = loadedHull(mesh, parseMesh(mesh, source), source);
   } else {
     hull.shape = parsePoints(reader);
   }
-  hull.p_HS = reader.vectorOr(Vector3::Zero(), "position");
+  hull.p_HS = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   hull.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
   try {
     convexHull(hullPoints(hull), "hull");

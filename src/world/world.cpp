@@ -7,6 +7,7 @@
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
 namespace {
@@ -246,8 +247,8 @@ bool World::stepGroups(const std::vector<BodyDrive>& drives, const std::vector<B
   return enough;
 }
 
-void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
-                 std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records) {
+int World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
+                std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records) {
   const FloatingPointEnvironment environment;
   ends_.resize(bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -261,6 +262,7 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
         },
         states[i]);
     extents_[i].travel = kTravelReserve * travelOf(i, states[i], ends_[i], rules_.step);
+    if (!isInReach(ends_[i]) || !(extents_[i].travel <= kFarthest)) return static_cast<int>(i);
   }
   const std::size_t recorded = records.size();
   bool done = false;
@@ -278,6 +280,7 @@ void World::step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& s
             });
   memory.swap(next_memory_);
   states.swap(ends_);
+  return kNone;
 }
 
 std::vector<World::Pair> World::allPairs(int body) const {

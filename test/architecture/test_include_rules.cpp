@@ -33,8 +33,8 @@ const std::map<std::string, Rule>& rules() {
                                  "hovercraft_sim/", "visualization_msgs/"};
   static const Names of_ros = messages +
                               Names{"Eigen/", "fmt/", "gtest/", "ros/", "rosbag/", "tf2_ros/"} +
-                              Names{"XmlRpcValue.h", "boost/make_shared.hpp", "diagnostic_updater/",
-                                    "dynamic_reconfigure/"};
+                              Names{"XmlRpcValue.h", "bzlib.h", "boost/make_shared.hpp",
+                                    "diagnostic_updater/", "dynamic_reconfigure/"};
   static const std::map<std::string, Rule> table = {
       // boost/multiprecision: exp and sin that are the same on every machine; it needs no library.
       {"math",
@@ -47,7 +47,7 @@ const std::map<std::string, Rule>& rules() {
       {"world", {{"math", "geometry", "body", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
       {"sim",
        {{"math", "geometry", "body", "hovercraft", "collision", "contact", "world"},
-        {"fmt/", "yaml-cpp/"}}},
+        {"fmt/", "yaml-cpp/", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros", {{"math", "geometry", "body", "hovercraft", "sim"}, of_ros}},
       {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
       {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},

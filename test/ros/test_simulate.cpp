@@ -20,6 +20,7 @@
 
 #include "../support/files.h"
 #include "../support/scenarios.h"
+#include "../support/special_files.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -229,7 +230,8 @@ TEST_F(Simulate, EveryErrorOfARequestNamesWhatIsWrong) {
   EXPECT_EQ(errorOf(request),
             "--output = out.txt: must end in .csv or .bag, or be - for CSV on the standard output");
   request.output = folder_.file("");
-  EXPECT_NE(errorOf(request).find("must end in .csv or .bag"), std::string::npos);
+  EXPECT_NE(errorOf(request).find("it is a directory, must be a regular file"), std::string::npos);
+  request.output = folder_.file("out.csv");
   request.scenario = folder_.file("missing.yaml");
   EXPECT_EQ(errorOf(request), request.scenario + ": there is no such file");
 }
@@ -256,21 +258,46 @@ TEST_F(Simulate, BadCommandsAreFoundBeforeAnythingIsWritten) {
 
 TEST_F(Simulate, AFullDiskIsAnErrorForBothOutputs) {
   SimulateRequest request = requestOf(twoCraftYaml());
+  const hovercraft::testing::SmallDisk disk(100000);
   request.duration = "100";
-  request.output = "/dev/full";
-  EXPECT_EQ(errorOf(request), "/dev/full: cannot be written: No space left on device");
-  std::filesystem::create_symlink("/dev/full", folder_.file("full.bag"));
+  request.output = folder_.file("full.csv");
+  EXPECT_EQ(errorOf(request), request.output + ".partial: cannot be written: File too large");
   request.output = folder_.file("full.bag");
-  EXPECT_EQ(errorOf(request).rfind(request.output + ": cannot be written: ", 0), 0U)
+  EXPECT_EQ(errorOf(request).rfind(request.output + ".partial: cannot be written: ", 0), 0U)
       << errorOf(request);
+  EXPECT_FALSE(std::filesystem::exists(request.output));
 }
 
 TEST_F(Simulate, APathThatCannotBeWrittenIsAnErrorForABag) {
   SimulateRequest request = requestOf(oneCraftYaml());
   request.duration = "1";
   request.output = folder_.file("no/such.bag");
-  EXPECT_EQ(errorOf(request).rfind(request.output + ".partial: cannot be written: ", 0), 0U)
-      << errorOf(request);
+  EXPECT_EQ(errorOf(request), request.output + ": cannot be written: No such file or directory");
+}
+
+TEST_F(Simulate, NoOutputIsADevice) {
+  SimulateRequest request = requestOf(oneCraftYaml());
+  request.duration = "1";
+  hovercraft::testing::makeFifo(folder_.file("fifo.bag"));
+  std::filesystem::create_symlink("/dev/full", folder_.file("full.csv"));
+  for (const char* name : {"fifo.bag", "full.csv"}) {
+    request.output = folder_.file(name);
+    EXPECT_NE(errorOf(request).find("must be a regular file or a name that is free"),
+              std::string::npos)
+        << errorOf(request);
+  }
+}
+
+// rosbag opens files by their names, and follows links.
+TEST_F(Simulate, ABagIsNotWrittenThroughALinkUnderThePartialName) {
+  SimulateRequest request = requestOf(oneCraftYaml());
+  request.duration = "0.1";
+  request.output = folder_.file("out.bag");
+  const std::string target = folder_.write("target", "old");
+  std::filesystem::create_symlink(target, request.output + ".partial");
+  messagesOf(request);
+  EXPECT_EQ(contentOf(target), "old");
+  const rosbag::Bag bag(request.output);
 }
 
 TEST_F(Simulate, ARunThatFailsLeavesAPartialBagThatCanBeRead) {

@@ -11,6 +11,7 @@
 
 #include "../support/files.h"
 #include "../support/scenarios.h"
+#include "../support/special_files.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -29,6 +30,10 @@ struct Outcome {
 /// bash. `{}` in the arguments is the folder.
 class Tools : public ::testing::Test {
  protected:
+  static std::string toolFolder() {
+    return std::filesystem::read_symlink("/proc/self/exe").parent_path().string() + "/";
+  }
+
   Outcome run(std::string arguments) const {
     for (std::size_t at = arguments.find("{}"); at != std::string::npos;
          at = arguments.find("{}")) {
@@ -38,9 +43,9 @@ class Tools : public ::testing::Test {
     if (arguments.rfind("scripts/plot_run.py", 0) == 0) arguments.insert(0, "python3 ");
     const bool is_script = arguments.rfind("python3 ", 0) == 0 ||
                            arguments.rfind("scripts/", 0) == 0 || arguments.rfind("bash ", 0) == 0;
-    const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-    const std::string command = is_script ? arguments : folder.string() + "/" + arguments;
-    std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    const std::string command = is_script ? arguments : toolFolder() + arguments;
+    const bool has_streams = command.find("2>&1") != std::string::npos;
+    std::FILE* pipe = popen((command + (has_streams ? "" : " 2>&1")).c_str(), "r");
     Outcome outcome;
     std::array<char, 4096> buffer{};
     while (std::fgets(buffer.data(), buffer.size(), pipe) != nullptr) {
@@ -288,6 +293,7 @@ TEST_F(Tools, SimulateWritesToTheStandardOutput) {
 TEST_F(Tools, ErrorsAreOneLineAndStatusOne) {
   folder_.write("s.yaml", oneCraftYaml());
   folder_.write("bad.csv", "x\n");
+  ASSERT_EQ(run("simulate {}s.yaml -o {}o.csv -d 0.1").status, 0);
   const std::vector<std::pair<std::string, std::string>> errors = {
       {"simulate -o {}o.csv", "simulate: the option '--scenario' is required but missing\n"},
       {"simulate {}s.yaml", "simulate: the option '--output' is required but missing\n"},
@@ -307,8 +313,7 @@ TEST_F(Tools, ErrorsAreOneLineAndStatusOne) {
            "time,vehicle,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n"},
       {"replay", "replay: the option '--bag' is required but missing\n"},
       {"replay {}no.bag",
-       "replay: " + folder_.file("no.bag") +
-           ": cannot be read as a bag: Error opening file: " + folder_.file("no.bag") + "\n"},
+       "replay: " + folder_.file("no.bag") + ": cannot be read: No such file or directory\n"},
       {"mass_properties", "mass_properties: it takes one file: a scenario or a mesh\n"},
       {"mass_properties {}no.yaml",
        "mass_properties: " + folder_.file("no.yaml") + ": there is no such file\n"},
@@ -323,12 +328,103 @@ TEST_F(Tools, ErrorsAreOneLineAndStatusOne) {
       {"closest test/data/cube.obj {}no.obj",
        "closest: mesh file '" + folder_.file("no.obj") + "': does not exist or cannot be read\n"},
       {"closest test/data/cube.obj test/data/cube.obj --pose-b 1 2",
-       "closest: --pose-b: 2 numbers, it takes 7: x y z (m) qx qy qz qw\n"}};
+       "closest: --pose-b: 2 numbers, it takes 7: x y z (m) qx qy qz qw\n"},
+      {"closest test/data/cube.obj test/data/cube.obj --pose-b 1e200 0 0 0 0 0 1",
+       "closest: --pose-b: x, y, z = 1e+200, 0, 0: each must be a number from -1e+30 to 1e+30 "
+       "m\n"},
+      {"closest test/data/cube.obj test/data/cube.obj --pose-a 0 nan -inf 0 0 0 1",
+       "closest: --pose-a: x, y, z = 0, nan, -inf: each must be a number from -1e+30 to 1e+30 "
+       "m\n"},
+      {"closest test/data/cube.obj test/data/cube.obj --pose-b 1 0 0 0 0 0 1e200",
+       "closest: --pose-b: the quaternion has the length inf, it must be 1\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 1e-300",
+       "simulate: --duration = 1e-300: must be at least a nanosecond, 1e-9 s\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 4.9e-10",
+       "simulate: --duration = 4.9e-10: must be at least a nanosecond, 1e-9 s\n"},
+      {"simulate {}s.yaml -o {}o.csv --duration=-1",
+       "simulate: --duration = -1: must be greater than 0\n"},
+      {"simulate {}s.yaml -o {}o.csv -d nan",
+       "simulate: --duration = nan: must be a number of seconds\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 1e400",
+       "simulate: --duration = 1e400: must be a number of seconds\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 0x10",
+       "simulate: --duration = 0x10: must be a number of seconds\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 1s",
+       "simulate: --duration = 1s: must be a number of seconds\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 1e7",
+       "simulate: --duration = 1e7: must be at most 1000000 s\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 1 --every=-1",
+       "simulate: --every = -1: must be 1 or greater\n"},
+      {"simulate {}s.yaml -o {}o.csv -d 1 --every 99999999999999999999",
+       "simulate: the argument ('99999999999999999999') for option '--every' is invalid\n"},
+      {"compare {}o.csv {}o.csv --tolerance nan",
+       "compare: position tolerance = nan m: must be 0 or greater, and finite\n"},
+      {"compare {}o.csv {}o.csv --attitude-tolerance=-1e-3",
+       "compare: attitude tolerance = -0.001 rad: must be 0 or greater, and finite\n"},
+      {"compare {}o.csv {}o.csv --tolerance 1e400",
+       "compare: the argument ('1e400') for option '--tolerance' is invalid\n"},
+      {"mass_properties test/data/cube.obj --density inf",
+       "mass_properties: density = inf kg/m^3: must be positive and finite\n"},
+      {"mass_properties test/data/cube.obj --mass=-0",
+       "mass_properties: mass = -0 kg: must be positive and finite\n"}};
   for (const auto& [arguments, message] : errors) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 1) << arguments;
     EXPECT_EQ(outcome.output, message) << arguments;
   }
+}
+
+// The device that is always full: the standard output may go anywhere, a file not.
+TEST_F(Tools, AFullStandardOutputIsAnError) {
+  folder_.write("s.yaml", oneCraftYaml());
+  const Outcome full = run("simulate {}s.yaml -d 100 -o - 2>&1 >/dev/full");
+  EXPECT_EQ(full.status, 1);
+  EXPECT_EQ(full.output,
+            "simulate: the standard output: cannot be written: No space left on device\n");
+  EXPECT_EQ(run("simulate {}s.yaml -d 100 -o - > /dev/null").status, 0);
+}
+
+TEST_F(Tools, NoOutputGoesWhereTheStandardOutputGoes) {
+  folder_.write("s.yaml", oneCraftYaml());
+  const Outcome outcome = run("simulate {}s.yaml -d 1 -o {}o.csv 2>&1 >{}o.csv");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_EQ(outcome.output,
+            "simulate: --output = " + folder_.file("o.csv") +
+                ": must not be where the standard output or the standard error goes\n");
+}
+
+TEST_F(Tools, CommandsMayComeThroughAPipe) {
+  folder_.write("s.yaml", oneCraftYaml());
+  folder_.write("c.csv", "time,rear,left,right\n0,1,0,0.1\n");
+  ASSERT_EQ(run("simulate {}s.yaml -c {}c.csv -d 1 -o {}a.csv").status, 0);
+  const Outcome piped =
+      run("simulate {}s.yaml -c /dev/stdin -d 1 -o {}b.csv < {}c.csv; cat {}c.csv | " +
+          toolFolder() + "simulate {}s.yaml -c /dev/stdin -d 1 -o {}p.csv");
+  EXPECT_EQ(piped.status, 0) << piped.output;
+  EXPECT_EQ(contentOf(folder_.file("b.csv")), contentOf(folder_.file("a.csv")));
+  EXPECT_EQ(contentOf(folder_.file("p.csv")), contentOf(folder_.file("a.csv")));
+}
+
+TEST_F(Tools, PlotRunReplacesRegularFilesOnly) {
+  folder_.write("s.yaml", oneCraftYaml());
+  ASSERT_EQ(run("simulate {}s.yaml -d 0.5 -o {}run.bag").status, 0);
+  const std::string fifo = folder_.file("fifo.png");
+  hovercraft::testing::makeFifo(fifo);
+  const Outcome refused = run("scripts/plot_run.py {}run.bag -o {}fifo.png");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_EQ(refused.output,
+            "plot_run.py: " + fifo +
+                ": cannot be written: must be a regular file or a name that is free\n");
+  EXPECT_EQ(run("scripts/plot_run.py {}run.bag -o {}run.bag").output,
+            "plot_run.py: --output = " + folder_.file("run.bag") +
+                ": must not be the file that is read\n");
+  const std::string target = folder_.write("target.png", "old");
+  const std::string own = folder_.write("target.png.partial", "the user's own");
+  std::filesystem::create_symlink(target, folder_.file("link.png"));
+  EXPECT_EQ(run("scripts/plot_run.py {}run.bag -o {}link.png").status, 0);
+  EXPECT_EQ(contentOf(target).substr(1, 3), "PNG");
+  EXPECT_EQ(contentOf(own), "the user's own");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_.file("link.png")));
 }
 
 TEST_F(Tools, HelpIsNoError) {

@@ -119,8 +119,8 @@ TEST_F(TrajectoryFile, AStateAloneOfTheEpisodeBeforeIsLeftOut) {
   });
   const auto samples = readTrajectories(path_).front().samples;
   ASSERT_EQ(samples.size(), 3U);
-  EXPECT_EQ(samples.front().time_ns, 5 * kStepNs);
-  EXPECT_EQ(samples.back().time_ns, 20 * kStepNs);
+  EXPECT_EQ(samples.front().time_ns, 5 * kSampleStepNs);
+  EXPECT_EQ(samples.back().time_ns, 20 * kSampleStepNs);
 }
 
 // Where the stamp of tick 0 would be 0, which ROS takes for no time.
@@ -131,14 +131,14 @@ TEST_F(TrajectoryFile, TickZeroMayHaveTheStampOfTickOne) {
       for (const std::int64_t tick : ticks) {
         auto state = stateAt(tick);
         state.header.stamp.fromNSec(
-            static_cast<std::uint64_t>(std::max<std::int64_t>(tick, 1) * kStepNs));
+            static_cast<std::uint64_t>(std::max<std::int64_t>(tick, 1) * kSampleStepNs));
         bag.write("/craft/state", state.header.stamp, state);
       }
     });
     const auto samples = readTrajectories(path_).front().samples;
     ASSERT_EQ(samples.size(), ticks.size());
     for (std::size_t i = 0; i < ticks.size(); ++i) {
-      EXPECT_EQ(samples[i].time_ns, ticks[i] * kStepNs);
+      EXPECT_EQ(samples[i].time_ns, ticks[i] * kSampleStepNs);
     }
   }
 }

@@ -134,7 +134,7 @@ TEST_F(CommandsCsv, AFileThatCannotBeReadIsNamed) {
   EXPECT_EQ(messageOf([&] { CsvCommandSource(missing, one_); }),
             missing + ": cannot be read: No such file or directory");
   EXPECT_EQ(messageOf([&] { CsvCommandSource(folder_.file(""), one_); }),
-            folder_.file("") + ": cannot be read: it is a folder");
+            folder_.file("") + ": cannot be read: it is a directory, must be a regular file");
 }
 
 TEST_F(CommandsCsv, ReadsOnlyAsFarAsItIsAsked) {

@@ -235,7 +235,8 @@ TEST(ScenarioFile, IsReadAndItsMeshesLieBesideIt) {
 TEST(ScenarioFile, ThatIsMissingIsSaidToBeSo) {
   EXPECT_EQ(messageOf([] { loadScenario("nowhere/scenario.yaml"); }),
             "nowhere/scenario.yaml: there is no such file");
-  EXPECT_EQ(messageOf([] { loadScenario("test"); }), "test: there is no such file");
+  EXPECT_EQ(messageOf([] { loadScenario("test"); }),
+            "test: cannot be read: it is a directory, must be a regular file");
 }
 
 TEST(ScenarioFile, ThatIsNotYamlIsSaidToBeSoWithTheLine) {

@@ -149,7 +149,7 @@ TEST(ScenarioWriter, EveryBitOfANumberSurvives) {
       thruster.timeout_ns =
           std::uniform_int_distribution<std::int64_t>(0, 1000000000000000)(engine);
     }
-    vehicle.initial_p_WB = {-0.0, 5e-324, 1.7976931348623157e308 / 1e10};
+    vehicle.initial_p_WB = {-0.0, 5e-324, 9.9999999999999988e29};
     vehicle.initial_rpy = anyVector(engine);
     vehicle.initial_v_WB = anyVector(engine);
     expectRoundTrip(scenario);

@@ -7,6 +7,7 @@
 
 #include "../support/files.h"
 #include "../support/scenario_text.h"
+#include "../support/special_files.h"
 
 namespace hovercraft {
 namespace {
@@ -68,6 +69,19 @@ TEST(Snapshot, ComesBackFromAFile) {
   EXPECT_EQ(readSnapshotText(path), toSnapshot(simulation));
 }
 
+TEST(Snapshot, AFullDiskLeavesTheOldOne) {
+  const Simulation simulation = underWay(parsed(validScenario()));
+  const testing::TestFolder folder;
+  const std::string path = folder.write("snapshot.yaml", "old");
+  {
+    const testing::SmallDisk disk(100);
+    EXPECT_EQ(messageOf([&] { saveSnapshot(simulation, path); }),
+              path + ": cannot be written: File too large");
+  }
+  EXPECT_EQ(testing::contentOf(path), "old");
+  EXPECT_EQ(testing::kindAt(path + ".partial"), 0U);
+}
+
 TEST(Snapshot, FilesThatCannotBeUsedAreNamed) {
   const Simulation simulation(parsed(validScenario()));
   EXPECT_THROW(saveSnapshot(simulation, "/no/such/folder/snap.yaml"), std::invalid_argument);
@@ -102,19 +116,19 @@ TEST(Snapshot, ACommandThatCannotWaitIsRefused) {
     return complaintAbout(with(text, command, changed), scenario);
   };
   EXPECT_EQ(complaint("tick: 349, vehicle: alpha, engines: 7, thrusts: [1, 1, 1]"),
-            "snap.yaml: commands[0].tick = 349: must be 350 or greater, in ascending order");
+            "snap.yaml: commands[0].tick: must be 350 or greater, in ascending order");
   EXPECT_EQ(complaint("tick: 350, vehicle: alpha, engines: 8, thrusts: [1, 1, 1]"),
-            "snap.yaml: commands[0].engines = 8: must be 1 to 7: the sum of rear 1, left 2, right "
+            "snap.yaml: commands[0].engines: must be 1 to 7: the sum of rear 1, left 2, right "
             "4");
   EXPECT_EQ(complaint("tick: 350, vehicle: beta, engines: 7, thrusts: [1, 1, 1]"),
-            "snap.yaml: commands[0].vehicle = beta: must be one of: alpha");
+            "snap.yaml: commands[0].vehicle: must be one of: alpha");
   EXPECT_EQ(complaint("tick: 350, vehicle: alpha, engines: 7, thrusts: [1, .nan, 1]"),
-            "snap.yaml: commands[0].thrusts = [1, .nan, 1]: must be finite");
+            "snap.yaml: commands[0].thrusts: must be finite");
 }
 
 TEST(Snapshot, AFolderIsNoFile) {
   EXPECT_EQ(messageOf([] { readSnapshotText("test/data"); }),
-            "test/data: cannot be read: it is a directory, must be a file");
+            "test/data: cannot be read: it is a directory, must be a regular file");
 }
 
 TEST(Snapshot, OneOfAnotherScenarioIsRefused) {
@@ -137,12 +151,15 @@ TEST(Snapshot, ItsScenarioMayBeWrittenOtherwise) {
 TEST(Snapshot, OneThatWasChangedIsRefused) {
   const Scenario scenario = parsed(validScenario());
   const std::string changed = with(toSnapshot(underWay(scenario)), "tick: 350\n", "tick: 351\n");
-  EXPECT_NE(complaintAbout(changed, scenario).find("is not that of the state"), std::string::npos);
+  EXPECT_NE(complaintAbout(changed, scenario).find("snap.yaml: hash: must be that of the state, "),
+            std::string::npos);
 }
 
 TEST(Snapshot, WhatIsNoSnapshotIsRefused) {
   const Scenario scenario = parsed(validScenario());
-  EXPECT_NE(complaintAbout("tick: [", scenario).find("snap.yaml: not YAML"), std::string::npos);
+  EXPECT_NE(complaintAbout("tick: [", scenario).find("snap.yaml: it is not the YAML of a snapshot"),
+            std::string::npos);
+  EXPECT_EQ(complaintAbout("root:x:0:0\n", scenario), "snap.yaml: it is no snapshot");
   EXPECT_NE(complaintAbout("tick: 5\n", scenario).find("snap.yaml: scenario: the key is missing"),
             std::string::npos);
 }

@@ -11,6 +11,7 @@
 
 #include "../support/files.h"
 #include "../support/scenarios.h"
+#include "../support/special_files.h"
 
 namespace hovercraft {
 namespace {
@@ -166,20 +167,23 @@ world:
 TEST_F(StatesCsv, AFullDiskIsAnError) {
   Simulation simulation(scenarioOf(oneCraftYaml()));
   SteadyCommands commands;
-  StatesCsvWriter writer("/dev/full", simulation.scenario());
+  const testing::SmallDisk disk(100000);
+  StatesCsvWriter writer(path_, simulation.scenario());
   RunPlan plan;
   plan.last_tick = 10000;
   EXPECT_EQ(messageOf([&] { run(simulation, commands, writer, plan); }),
-            "/dev/full: cannot be written: No space left on device");
-  StatesCsvWriter small("/dev/full", simulation.scenario());
+            path_ + ".partial: cannot be written: File too large");
+  const testing::SmallDisk smaller(10);
+  StatesCsvWriter small(path_, simulation.scenario());
   EXPECT_EQ(messageOf([&] { small.close(); }),
-            "/dev/full: cannot be written: No space left on device");
+            path_ + ".partial.2: cannot be written: File too large");
+  EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
 TEST_F(StatesCsv, APathThatCannotBeWrittenIsAnError) {
   const std::string path = folder_.file("no/such/out.csv");
   EXPECT_EQ(messageOf([&] { StatesCsvWriter(path, scenarioOf(oneCraftYaml())); }),
-            path + ".partial: cannot be written: No such file or directory");
+            path + ": cannot be written: No such file or directory");
 }
 
 TEST_F(StatesCsv, ARunThatFailsLeavesNoFileThatLooksWhole) {
@@ -187,10 +191,11 @@ TEST_F(StatesCsv, ARunThatFailsLeavesNoFileThatLooksWhole) {
   {
     Simulation simulation(scenarioOf(oneCraftYaml()));
     StatesCsvWriter writer(path_, simulation.scenario());
-    writer.state(simulation);
+    for (int n = 0; n < 3000; ++n) writer.state(simulation);  // more than its buffer holds
   }
   EXPECT_EQ(contentOf(path_), "from an earlier run");
   EXPECT_TRUE(std::filesystem::exists(path_ + ".partial"));
+  std::filesystem::remove(path_ + ".partial");
   write(oneCraftYaml(), 0);
   EXPECT_EQ(contentOf(path_).rfind(kHeader, 0), 0U);
   EXPECT_FALSE(std::filesystem::exists(path_ + ".partial"));

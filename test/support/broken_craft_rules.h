@@ -90,7 +90,7 @@ inline const std::vector<BrokenRule> kBrokenParts = {
     {"NegativeDensity", kMassByNumbers, "    parts: [{sphere: {radius: 0.1}, density: -3}]\n",
      "vehicles.alpha.parts[0].density = -3: must be greater than 0"},
     {"DensityMakesTheMassInfinite", kMassByNumbers,
-     "    parts: [{sphere: {radius: 1e50}, density: 1e300}]\n",
+     "    parts: [{sphere: {radius: 1e30}, density: 1e300}]\n",
      "vehicles.alpha.parts[0].density = 1e300: makes a mass that is not positive and finite"},
     {"PartWithoutVolume", kMassByNumbers,
      "    parts: [{box: {size: [1e-200, 1e-200, 1]}, mass: 1}]\n",

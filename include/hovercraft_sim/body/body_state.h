@@ -30,4 +30,7 @@ inline Twist twistOf(const BodyState& state, const Mobility& mobility) {
   return std::visit([&](const auto& body) { return mobility.twist(body); }, state);
 }
 
+/// Whether distances to the body are numbers: no coordinate beyond kFarthest, and a pose.
+bool isInReach(const BodyState& state);
+
 }  // namespace hovercraft

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <optional>
+
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/rotation.h"
@@ -76,9 +79,10 @@ inline Matrix3 orientationRate(const Vector3& w_WB, const Matrix3& R_WB) {
 inline Quaternion renormalized(const Quaternion& q) {
   return normalized(q);
 }
-/// Back onto SO(3), likewise.
+/// Back onto SO(3), likewise; NaN where a step was so long that no rotation is near.
 inline Matrix3 renormalized(const Matrix3& R) {
-  return nearestRotation(R);
+  const std::optional<Matrix3> nearest = findNearestRotation(R);
+  return nearest ? *nearest : Matrix3(Matrix3::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
 inline Quaternion toQuaternion(const Quaternion& q_WB) {

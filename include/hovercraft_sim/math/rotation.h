@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -38,8 +40,11 @@ inline Matrix3 rotationRate(const Vector3& w_WB, const Matrix3& R_WB) {
 /// decomposition, by Newton's iteration (Higham 1986, "Computing the polar decomposition",
 /// eq. 3.1). It converges quadratically from any A with a positive determinant; no axis is
 /// preferred.
-/// @param A a matrix near SO(3), det(A) > 0.
-/// @throws std::logic_error if A is singular, reflected or not finite.
+/// @returns none if A is singular, reflected, not finite, or so far from SO(3) that the iteration
+/// does not end.
+HOVERCRAFT_PUBLIC std::optional<Matrix3> findNearestRotation(const Matrix3& A);
+
+/// The same of a matrix near SO(3). @throws std::logic_error if there is none.
 HOVERCRAFT_PUBLIC Matrix3 nearestRotation(const Matrix3& A);
 
 /// The largest entry of |RᵀR - 1|: 0 for a rotation.

@@ -119,6 +119,16 @@ constexpr double kCrossingEdges = 1e-4;
 /// more.
 constexpr int kMaxImpactQueries = 10000;
 
+/// How far a saved orientation may be from a rotation (-): a step leaves some 1e-15, and the text
+/// of a snapshot loses nothing. The closest features rest on rotations that are orthonormal to
+/// rounding.
+constexpr double kSavedRotation = 1e-12;
+
+/// Greatest coordinate (m) of a body, and the farthest that a point of one may come in a step where
+/// bodies meet: the tenth power is still a double, so that no product of lengths and speeds is
+/// infinite. The universe that can be seen has 1e27 m.
+constexpr double kFarthest = 1e30;
+
 /// Distance (N) from its demand below which a lagging thrust has arrived: without a bound it would
 /// end among the denormal numbers, which processors multiply a hundred times slower.
 constexpr double kSettledThrust = 1e-100;

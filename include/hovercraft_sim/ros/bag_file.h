@@ -1,5 +1,6 @@
 #pragma once
 
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -14,9 +15,9 @@ namespace hovercraft_ros {
 /// True if the file exists and begins as a bag does.
 HOVERCRAFT_PUBLIC bool isBag(const std::string& path);
 
-/// Opens a bag for reading.
-/// @throws std::invalid_argument that names the file and the reason: not there, not a bag, without
-/// an index.
+/// Opens a bag for reading, after its structure was checked (bag_check.h).
+/// @throws std::invalid_argument that names the file and the reason: not there, not a regular file,
+/// not a bag, damaged, without an index.
 HOVERCRAFT_PUBLIC void openForReading(rosbag::Bag& bag, const std::string& path);
 
 /// Throws std::invalid_argument: "file: topic at stamp s: rule", the stamp being when the message
@@ -30,8 +31,10 @@ template <class Read>
 auto readingBag(const std::string& path, const Read& read) {
   try {
     return read();
-  } catch (const rosbag::BagException& error) {
+  } catch (const ros::Exception& error) {
     throw std::invalid_argument(path + ": cannot be read: " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw std::invalid_argument(path + ": cannot be read: it does not fit into memory");
   }
 }
 
@@ -46,6 +49,8 @@ boost::shared_ptr<const Message> messageAs(const std::string& path,
     message = instance.instantiate<Message>();
   } catch (const ros::Exception& error) {
     failAt(path, instance, "cannot be read as " + type + ": " + error.what());
+  } catch (const std::length_error&) {  // of a list whose length is none
+    failAt(path, instance, "cannot be read as " + type);
   }
   if (message) return message;
   if (instance.getDataType() == type) failAt(path, instance, type + " has another definition");

@@ -22,8 +22,7 @@ HOVERCRAFT_PUBLIC hovercraft::Scenario loadScenarioFile(
 HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::CommandSource> openCommands(
     const std::string& path, const hovercraft::Scenario& scenario);
 
-/// A bag if the name ends in .bag; CSV if it ends in .csv, is `-` (the standard output) or a
-/// device.
+/// A bag if the name ends in .bag; CSV if it ends in .csv or is `-` (the standard output).
 /// @throws std::invalid_argument if it is neither, or cannot be opened for writing.
 HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::StateSink> openOutput(
     const std::string& path, const hovercraft::Scenario& scenario);

@@ -20,7 +20,8 @@ class HOVERCRAFT_PUBLIC CsvCommandSource : public CommandSource {
  public:
   /// @throws std::invalid_argument if the file cannot be read or its header is not right for the
   /// scenario.
-  CsvCommandSource(const std::string& path, const Scenario& scenario);
+  CsvCommandSource(const std::string& path, const Scenario& scenario,
+                   InputKind kind = InputKind::kFile);
 
   std::optional<Command> next() override;
 

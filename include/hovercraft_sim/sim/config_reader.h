@@ -21,6 +21,7 @@ extern HOVERCRAFT_PUBLIC const NumberRule kAnyNumber;
 extern HOVERCRAFT_PUBLIC const NumberRule kPositive;
 extern HOVERCRAFT_PUBLIC const NumberRule kNotNegative;
 extern HOVERCRAFT_PUBLIC const NumberRule kNotPositive;
+extern HOVERCRAFT_PUBLIC const NumberRule kCoordinate;  // m: at most kFarthest, of either sign
 
 /// One map of a tree, with the path by which the user knows it. Every reading function throws
 /// std::invalid_argument with one line: source, key path, value, rule. Numbers are decimal, as
@@ -30,7 +31,9 @@ class HOVERCRAFT_PUBLIC ConfigReader {
  public:
   /// @param source name of the file or parameter that the tree came from.
   /// @param path key path of `node` within the source; empty at the top.
-  ConfigReader(ConfigNode node, std::string source, std::string path = "");
+  /// @param quotes false: messages show neither values nor unknown keys. For a text that may be any
+  /// file, and whose errors may be read far away.
+  ConfigReader(ConfigNode node, std::string source, std::string path = "", bool quotes = true);
 
   /// Throws if there is a key that is not listed.
   void allowOnly(std::initializer_list<const char*> keys) const;
@@ -50,6 +53,10 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   std::int64_t wholeNumberOr(std::int64_t fallback, const char* key) const;
   /// Three numbers, each of which obeys the rule.
   Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
+  /// A length, m: greater than 0 and at most kFarthest.
+  double length(const char* key) const;
+  /// Three of them.
+  Vector3 lengths(const char* key) const;
   Vector3 vectorOr(const Vector3& fallback, const char* key,
                    const NumberRule& rule = kAnyNumber) const;
   /// Three numbers, or one that stands for all of them.
@@ -77,6 +84,7 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   ConfigNode node_;
   std::string source_;
   std::string path_;
+  bool quotes_ = true;
 };
 
 }  // namespace hovercraft

@@ -2,22 +2,22 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/sim/input_file.h"
 
 namespace hovercraft {
 
 /// A file of comma-separated values with a header, read row by row: only the current row is in
-/// memory. No quotes, no comments; blanks around a field, CR before LF, a byte-order mark and blank
-/// lines at the end are passed over. Every function throws std::invalid_argument with one line:
-/// file, line number, column, value, rule.
+/// memory, and a line has a bound. No quotes, no comments; blanks around a field, CR before LF, a
+/// byte-order mark and blank lines at the end are passed over. Every function throws
+/// std::invalid_argument with one line: file, line number, column, value, rule.
 class HOVERCRAFT_PUBLIC CsvReader {
  public:
   /// Opens the file and reads the header.
-  explicit CsvReader(std::string path);
+  explicit CsvReader(std::string path, InputKind kind = InputKind::kFile);
 
   /// Throws unless the header is one of these, each a list as `time,rear,left,right`.
   void requireHeader(const std::vector<std::string>& headers) const;
@@ -43,7 +43,7 @@ class HOVERCRAFT_PUBLIC CsvReader {
   void split();
 
   std::string path_;
-  std::ifstream file_;
+  InputFile file_;
   std::int64_t line_number_ = 0;
   std::string line_;
   std::vector<std::string> header_;

@@ -21,13 +21,17 @@ namespace hovercraft {
 /// besides the memory of contacts is a list of neighbours that only saves time.
 class HOVERCRAFT_PUBLIC World {
  public:
+  static constexpr int kNone = -1;
+
   World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles);
 
   /// One step of all bodies. @param states in the order of the bodies; replaced. @param memory of
   /// the last step; replaced. @param records what happened is appended, in the order of time within
   /// each group of bodies that are near each other.
-  void step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
-            std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records);
+  /// @returns the first body that would come out of reach (isInReach(), kFarthest), for which
+  /// nothing is changed; kNone.
+  int step(const std::vector<BodyDrive>& drives, std::vector<BodyState>& states,
+           std::vector<ContactMemory>& memory, std::vector<ContactRecord>& records);
 
   /// The deepest overlap beyond the tolerance, if there is one. @param body only its pairs; -1:
   /// all.
