@@ -18,7 +18,7 @@ constexpr const char* kClockReason =
     "publishes /clock as well, and only one node may make the time: set clock to false here, or "
     "stop the other";
 constexpr std::uint32_t kFramesQueue = 100;
-constexpr std::uint32_t kClockQueue = 10;
+constexpr std::uint32_t kWatchedClockQueue = 10;
 
 std::string topicReason(const std::string& topic) {
   return "publishes " + topic +
@@ -86,7 +86,7 @@ GraphWatch::GraphWatch(const ros::NodeHandle& handle, Claims claims)
   frames_subscriber_ =
       node.subscribe(kStaticFramesTopic, kFramesQueue, &GraphWatch::onFrames, this);
   if (claims_.clock) {
-    clock_subscriber_ = node.subscribe(kClockTopic, kClockQueue, &GraphWatch::onClock, this);
+    clock_subscriber_ = node.subscribe(kClockTopic, kWatchedClockQueue, &GraphWatch::onClock, this);
   }
   if (!foreign_time_.empty()) ROS_WARN("%s", foreign_time_.c_str());
   look();

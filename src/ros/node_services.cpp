@@ -24,9 +24,9 @@ namespace {
 constexpr std::uint32_t kMostStepsAsked = 3600000;
 
 template <class Service>
-ros::ServiceServer serve(
-    HovercraftNode& node, ros::NodeHandle& handle, const std::string& name,
-    std::function<void(const typename Service::Request&, typename Service::Response&)> answer) {
+ros::ServiceServer serve(HovercraftNode& node, ros::NodeHandle& handle, const std::string& name,
+                         const std::function<void(const typename Service::Request&,
+                                                  typename Service::Response&)>& answer) {
   const boost::function<bool(typename Service::Request&, typename Service::Response&)> callback =
       [&node, answer](typename Service::Request& request, typename Service::Response& response) {
         try {

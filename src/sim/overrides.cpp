@@ -13,8 +13,8 @@ namespace hovercraft {
 namespace {
 
 constexpr const char* kWhiteSpace = " \t\r\n";
-constexpr std::size_t kLongestShownText = 120;  // bytes of an override in a message
-constexpr std::size_t kMostIndexDigits = 9;     // fit every list that can be read
+constexpr std::size_t kLongestOverrideShown = 120;  // bytes of an override in a message
+constexpr std::size_t kMostIndexDigits = 9;         // fit every list that can be read
 
 /// One part of a path: a key of a map, or the number of an element of a list.
 struct Step {
@@ -166,7 +166,7 @@ class PathReader {
 
 /// The override in a message: one line, not a whole tree.
 std::string nameOf(const std::string& assignment, const std::string& source) {
-  std::string shown = assignment.substr(0, kLongestShownText);
+  std::string shown = assignment.substr(0, kLongestOverrideShown);
   std::replace_if(
       shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   return source + " " + shown + (shown.size() < assignment.size() ? "..." : "");

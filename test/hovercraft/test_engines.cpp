@@ -86,6 +86,13 @@ TEST(EngineDynamics, DemandIsHeldWithinTheLimits) {
   EXPECT_EQ(demanded(-2.0), -1.25);
 }
 
+// Limits that nobody set are 0.
+TEST(EngineDynamics, AnEngineWithoutLimitsGivesNoThrust) {
+  const EngineDynamics dynamics({}, kStepNs);
+  EXPECT_EQ(dynamics.demandedThrust(kRear, commanded(5.0), 0), 0.0);
+  EXPECT_EQ(dynamics.demandedThrust(kRear, commanded(-5.0), 0), 0.0);
+}
+
 TEST(EngineDynamics, SaturationBeginsBeyondTheLimits) {
   Engines engines = skewEngines();
   engines[0].min_thrust = -1.25;

@@ -17,7 +17,7 @@ using hovercraft::testing::expectSameBits;
 using hovercraft::testing::parsed;
 using hovercraft::testing::validScenario;
 
-hovercraft_sim::SetState::Request stateRequest() {
+hovercraft_sim::SetState::Request denormalStateRequest() {
   hovercraft_sim::SetState::Request request;
   request.vehicle = "alpha";
   request.pose.position = toPointMessage({1.1, 2e-310, 3.3});
@@ -29,7 +29,7 @@ hovercraft_sim::SetState::Request stateRequest() {
 
 TEST(ForeignEnvironmentOfTheNode, ARequestedStateIsTheSame) {
   const hovercraft::Scenario scenario = parsed(validScenario());
-  const auto request = stateRequest();
+  const auto request = denormalStateRequest();
   expectSameBits("set_state", [&] {
     hovercraft::Simulation simulation(scenario);
     const hovercraft_sim::RunEvent event = setStateEvent(scenario, request);

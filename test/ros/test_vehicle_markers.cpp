@@ -168,8 +168,9 @@ TEST(VehicleMarkers, AVisualIsDrawnInPlaceOfThePartsWithItsOwnColours) {
 // An obstacle at (50, 0, 0), turned a quarter about z, whose visual lies 1 m along its own x.
 TEST(VehicleMarkers, TheVisualOfAnObstacleLiesInItsFrame) {
   const hovercraft::Scenario scenario = hovercraft::testing::parsed(
-      hovercraft::testing::scenarioOfParts() +
-      "world:\n  obstacles: {block: {box: {size: [1, 1, 1]}, position: [50, 0, 0], rpy: [0, 0, "
+      hovercraft::testing::validScenario() +
+      "    hull: {box: {size: [0.6, 0.4, 0.1]}}\nworld:\n  obstacles: {block: {box: {size: [1, 1, "
+      "1]}, position: [50, 0, 0], rpy: [0, 0, "
       "1.5707963267948966], visual: {file: /a.dae, position: [1, 0, 0]}}}\n");
   const std::vector<Marker> markers = obstacleMarkers(scenario, "world");
   ASSERT_EQ(markers.size(), 1U);

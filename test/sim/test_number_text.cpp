@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned kSeed = 20261122;
 
-std::uint64_t bitsOf(double number) {
+std::uint64_t bitPattern(double number) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &number, sizeof(bits));
   return bits;
@@ -53,7 +53,8 @@ std::size_t digitsOf(const std::string& text) {
 /// this one, the next one on the other side may be, as beside a power of two the numbers below lie
 /// twice as close: it is tried too.
 std::string faultOf(const std::string& text, double number) {
-  if (bitsOf(std::strtod(text.c_str(), nullptr)) != bitsOf(number)) return text + " is another one";
+  if (bitPattern(std::strtod(text.c_str(), nullptr)) != bitPattern(number))
+    return text + " is another one";
   const auto digits = static_cast<int>(digitsOf(text));
   if (digits > 1) {
     const std::string shorter = printed(number, digits - 1);
@@ -172,7 +173,7 @@ TEST(ParseNumber, GivesBackEveryBitOfWhatWasWritten) {
     if (!std::isfinite(number)) continue;
     const ParsedNumber parsed = parseNumber(textOf(number));
     ASSERT_EQ(parsed.syntax, NumberSyntax::kNumber) << textOf(number);
-    ASSERT_EQ(bitsOf(parsed.value), bits) << "sample " << n << " of seed " << kSeed;
+    ASSERT_EQ(bitPattern(parsed.value), bits) << "sample " << n << " of seed " << kSeed;
   }
 }
 

@@ -8,7 +8,7 @@
 namespace hovercraft::testing {
 
 /// What a program may have made of the floating-point environment of its thread.
-enum class Foreign {
+enum class Foreign : std::uint8_t {
   kFlushToZero,
   kDenormalsAreZero,
   kFastMath,  // both, as -ffast-math sets them when a program starts
