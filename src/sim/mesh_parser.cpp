@@ -103,7 +103,7 @@ std::optional<VisualScenario> parseVisual(const ConfigReader& reader,
   map.allowOnly({"file", "scale", "position", "rpy"});
   visual.resource = resourceOf(map, "file", source);
   visual.scale = scaleOf(map);
-  visual.p_HV = map.vectorOr(Vector3::Zero(), "position");
+  visual.p_HV = map.vectorOr(Vector3::Zero(), "position", kCoordinate);
   visual.rpy = map.vectorOr(Vector3::Zero(), "rpy");
   return visual;
 }

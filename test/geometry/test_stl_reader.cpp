@@ -172,6 +172,15 @@ TEST(StlReader, WhatIsNoStlIsSaid) {
             std::string::npos);
 }
 
+// The uncertainty of a unit cube so far away is 6 m² * 28500 m * 5.97e-8 = 1.02 % of it in single
+// precision.
+TEST(StlReader, ABinaryFileIsKnownToSinglePrecisionOnly) {
+  const PolygonMesh far = boxMesh({28500.0, 0.0, 0.0}, {28501.0, 1.0, 1.0});
+  EXPECT_NE(messageOfParsing(stlBytes(far), MeshFormat::kStl).find("must be known to 1 %"),
+            std::string::npos);
+  EXPECT_EQ(messageOfParsing(testing::objText(far), MeshFormat::kObj), "no error");
+}
+
 TEST(StlReader, TheScaleIsAlongEachAxis) {
   const StlContent stl = readStl(stlBytes(box()), {2.0, 0.5, 10.0}, "it");
   EXPECT_EQ(signedVolume(stl.mesh), 60.0);
