@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "hovercraft_sim/math/parse_number.h"
@@ -14,7 +15,7 @@ namespace hovercraft {
 namespace {
 
 constexpr std::size_t kLongestShown = 24;  // bytes of a word in a message
-const std::string kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
 bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
@@ -58,6 +59,7 @@ MeshText::MeshText(const std::string& content, std::string name)
   }
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 MeshText::LineEnd MeshText::appendLine(std::vector<MeshWord>& words, bool is_obj) {
   if (position_ >= content_.size()) return LineEnd::kEndOfFile;
   ++line_;

@@ -103,6 +103,17 @@ Vector3 samplePoint(const PolygonMesh& shell, const Solid& solid) {
   return first;
 }
 
+/// How often all shells but one go round a point of that one.
+double windingOfOthers(const std::vector<PolygonMesh>& shells, const std::vector<Solid>& solids,
+                       std::size_t one, const Vector3& point) {
+  double winding = 0.0;
+  for (std::size_t j = 0; j < shells.size(); ++j) {
+    if (j == one || !contains(solids[j], point)) continue;
+    winding += windingNumber(shells[j], point);
+  }
+  return winding;
+}
+
 /// Checks that a shell in no other one faces outwards and a shell in another one (a cavity)
 /// inwards, and so on for what is in a cavity.
 void checkShells(const PolygonMesh& mesh, const std::string& name) {
@@ -117,12 +128,7 @@ void checkShells(const PolygonMesh& mesh, const std::string& name) {
   for (std::size_t i = 0; i < shells.size(); ++i) {
     if (std::abs(solids[i].volume) <= solids[i].uncertainty) continue;  // adds nothing
     const Vector3 sample = samplePoint(shells[i], solids[i]);
-    double winding = 0.0;  // of all others around this one
-    for (std::size_t j = 0; j < shells.size(); ++j) {
-      if (j == i || !contains(solids[j], sample)) continue;
-      winding += windingNumber(shells[j], sample);
-    }
-    const bool is_inside = winding > 0.5;
+    const bool is_inside = windingOfOthers(shells, solids, i, sample) > 0.5;
     if (is_inside == (solids[i].volume < 0.0)) continue;
     refuseSurface(
         name, fmt::format(

@@ -45,6 +45,7 @@ std::vector<int> firstAtPosition(const std::vector<Vector3>& vertices) {
 }
 
 /// The mesh with each vertex replaced by `target`.
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 PolygonMesh replaced(const PolygonMesh& mesh, const std::vector<int>& target) {
   constexpr int none = -1;
   PolygonMesh result;
@@ -82,6 +83,7 @@ class Neighbourhood {
       : vertices_(mesh.vertices), origin_(mesh.vertices.front()), reach_(reach) {}
 
   /// The first point within reach of vertex v, or v itself, which is then remembered.
+  // NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
   int firstNear(int v) {
     const Vector3& p = vertices_[static_cast<std::size_t>(v)];
     Cell cell{};

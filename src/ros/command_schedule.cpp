@@ -21,7 +21,7 @@ void CommandSchedule::add(const std::vector<Command>& commands) {
 std::optional<Command> CommandSchedule::takeDue(Tick tick) {
   const auto first = waiting_.begin();
   if (first == waiting_.end() || first->first > tick) return std::nullopt;
-  const Command command = first->second;
+  Command command = first->second;
   waiting_.erase(first);
   return command;
 }

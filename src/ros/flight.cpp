@@ -208,6 +208,7 @@ hovercraft_sim::ScheduleCommands::Response Flight::schedule(
 Tick Flight::scheduleAll(const std::string& commands, Tick now, Tick settle) {
   const auto source = openCommands(commands, scenario_);
   std::vector<HeldThrusts> held;
+  held.reserve(scenario_.vehicles.size());
   for (const hovercraft::VehicleScenario& craft : scenario_.vehicles) {
     held.emplace_back(craft, scenario_.step_ns, *episode_);
   }

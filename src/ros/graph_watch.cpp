@@ -1,6 +1,7 @@
 #include "hovercraft_sim/ros/graph_watch.h"
 
 #include <XmlRpcValue.h>
+#include <fmt/format.h>
 #include <optional>
 #include <utility>
 
@@ -131,7 +132,7 @@ void GraphWatch::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "Nobody publishes the same");
   if (!foreign_time_.empty()) status.mergeSummary(DiagnosticStatus::WARN, foreign_time_);
   for (const auto& [node, reason] : conflicts_) {
-    status.mergeSummary(DiagnosticStatus::WARN, node + " " + reason);
+    status.mergeSummary(DiagnosticStatus::WARN, fmt::format("{} {}", node, reason));
     status.add(node, reason);
   }
 }

@@ -64,6 +64,8 @@ class SpaceReader {
   SpaceReader(std::string path, const rosbag::Bag& bag, std::string space)
       : path_(std::move(path)), bag_(bag), space_(std::move(space)) {}
 
+  void countFromTicks(std::vector<TrajectorySample>& samples,
+                      const std::vector<std::int64_t>& stamps_ns, std::int64_t step_ns);
   Trajectory fromState();
   /// ROS time of tick 0, ns, where two states tell it.
   std::optional<std::int64_t> epochNs() const { return epoch_ns_; }
@@ -160,6 +162,13 @@ Trajectory SpaceReader::fromState() {
     throw std::invalid_argument(
         fmt::format("{}: {}: stamps must go on with the ticks", path_, topic(kStateTopic)));
   }
+  countFromTicks(samples, stamps_ns, step_ns);
+  return trajectory;
+}
+
+/// @param samples with ticks in the place of times. @param step_ns of a tick.
+void SpaceReader::countFromTicks(std::vector<TrajectorySample>& samples,
+                                 const std::vector<std::int64_t>& stamps_ns, std::int64_t step_ns) {
   const std::int64_t epoch_ns = stamps_ns.front() - samples.front().time_ns * step_ns;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].time_ns *= step_ns;
@@ -171,7 +180,6 @@ Trajectory SpaceReader::fromState() {
     }
   }
   epoch_ns_ = epoch_ns;
-  return trajectory;
 }
 
 Trajectory SpaceReader::fromOdom() const {

@@ -49,7 +49,7 @@ const NumberRule kPositive = {[](double x) { return x > 0.0; }, "must be greater
 const NumberRule kNotNegative = {[](double x) { return x >= 0.0; }, "must be 0 or greater"};
 const NumberRule kNotPositive = {[](double x) { return x <= 0.0; }, "must be 0 or less"};
 
-const NumberRule kCoordinate = {[](double x) { return std::abs(x) <= kFarthest; },
+const NumberRule kCoordinate = {[](double x) { return x >= -kFarthest && x <= kFarthest; },
                                 "must be at most 1e30, of either sign"};
 
 ConfigReader::ConfigReader(ConfigNode node, std::string source, std::string path, bool quotes)
@@ -116,6 +116,7 @@ std::vector<ConfigReader> ConfigReader::list(const char* key) const {
   const ConfigNode& list = required(key);
   if (list.items().empty()) fail(key, "must be a list, not empty");
   std::vector<ConfigReader> readers;
+  readers.reserve(list.items().size());
   for (std::size_t i = 0; i < list.items().size(); ++i) {
     readers.emplace_back(list.items()[i], source_, fmt::format("{}[{}]", pathOf(key), i), quotes_);
   }

@@ -24,7 +24,7 @@ constexpr double kMostDensity = 3e4;   // kg/m³
 /// The path that a text behind `key` names, without regard to whether it is there.
 std::string resolvedPath(const ConfigReader& reader, const char* key,
                          const ScenarioSource& source) {
-  const std::string file = reader.text(key);
+  std::string file = reader.text(key);
   if (std::filesystem::path(file).is_absolute()) return file;
   if (source.directory.empty()) {
     reader.fail(key,
@@ -57,7 +57,7 @@ void passOn(const std::vector<std::string>& notes, const ScenarioSource& source)
 
 /// A URL for RViz: a path becomes file://.
 std::string resourceOf(const ConfigReader& reader, const char* key, const ScenarioSource& source) {
-  const std::string file = reader.text(key);
+  std::string file = reader.text(key);
   if (file.find("://") != std::string::npos) return file;
   return "file://" + resolvedPath(reader, key, source);
 }
@@ -103,7 +103,7 @@ std::optional<VisualScenario> parseVisual(const ConfigReader& reader,
   map.allowOnly({"file", "scale", "position", "rpy"});
   visual.resource = resourceOf(map, "file", source);
   visual.scale = scaleOf(map);
-  visual.p_HV = map.vectorOr(Vector3::Zero(), "position");
+  visual.p_HV = map.vectorOr(Vector3::Zero(), "position", kCoordinate);
   visual.rpy = map.vectorOr(Vector3::Zero(), "rpy");
   return visual;
 }

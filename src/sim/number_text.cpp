@@ -149,7 +149,7 @@ bool isReadBack(double number, const Digits17& parts) {
 Digits17 rounded(double number, int digits) {
   const std::string text = fmt::format("{:.{}e}", number, digits - 1);  // d.ddde±dd
   const std::size_t exponent = text.find('e');
-  Digits17 parts = {0, std::atoi(text.c_str() + exponent + 1)};
+  Digits17 parts = {0, static_cast<int>(std::strtol(text.c_str() + exponent + 1, nullptr, 10))};
   for (const char c : text.substr(0, exponent)) {
     if (isDigit(c)) parts.digits = 10 * parts.digits + static_cast<std::uint64_t>(c - '0');
   }

@@ -187,6 +187,7 @@ bool clash(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void checkOutputs(const std::vector<OutputOption>& outputs,
                   const std::vector<std::string>& inputs) {
   for (const OutputOption& output : outputs) {

@@ -1,11 +1,9 @@
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 

@@ -134,6 +134,7 @@ std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vec
 
 std::vector<BodyState> Simulation::worldStates() const {
   std::vector<BodyState> states;
+  states.reserve(state_.vehicles.size() + state_.bodies.size());
   for (const VehicleState& vehicle : state_.vehicles) states.push_back(vehicle.body);
   states.insert(states.end(), state_.bodies.begin(), state_.bodies.end());
   return states;

@@ -65,7 +65,7 @@ bool isYaw(const Matrix3& R_WB) {
          R_WB(2, 2) > 0.0;
 }
 
-Quaternion parseOrientation(const ConfigReader& reader, Quaternion /*kind*/) {
+Quaternion parseOrientation(const ConfigReader& reader, const Quaternion& /*kind*/) {
   reader.allowOnly({"position", "q_s", "q_v", "momentum", "angular_momentum"});
   return {reader.number("q_s"), reader.vector("q_v")};
 }
@@ -82,9 +82,8 @@ template <class Orientation>
 BodyState parseBodyAs(const ConfigReader& reader, BodyModel model, const Orientation& kind) {
   const Orientation orientation = parseOrientation(reader, kind);
   requireRotation(reader, orientation);
-  const RigidBodyState<Orientation> body = {reader.vector("position", kCoordinate), orientation,
-                                            reader.vector("momentum"),
-                                            reader.vector("angular_momentum")};
+  RigidBodyState<Orientation> body = {reader.vector("position", kCoordinate), orientation,
+                                      reader.vector("momentum"), reader.vector("angular_momentum")};
   if (model != BodyModel::kPlanar) return body;
   const char* const rule = "does not fit model: planar, which moves in x, y and yaw only";
   if (!isYaw(orientation)) reader.fail("", rule);
@@ -124,6 +123,7 @@ VehicleState parseVehicle(const ConfigReader& reader, const Scenario& scenario,
 
 std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenario) {
   std::vector<std::string> names;
+  names.reserve(scenario.vehicles.size());
   for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   reader.text("vehicle");  // it must be there
   return reader.choiceOr(0, "vehicle", names);

@@ -6,6 +6,8 @@
 #include "hovercraft_sim/geometry/mesh_file.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 
+#include "targets.h"
+
 namespace hovercraft::fuzz {
 namespace {
 
@@ -38,7 +40,6 @@ void readAs(MeshFormat format, const std::string& input) {
 
 }  // namespace
 
-/// A mesh file: the bytes are read as OBJ and as STL, its surface and its body are made.
 void readMesh(const std::string& input) {
   readAs(MeshFormat::kObj, input);
   readAs(MeshFormat::kStl, input);

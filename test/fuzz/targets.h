@@ -23,12 +23,17 @@ void readStatesCsv(const std::string& input);
 /// A snapshot without its scenario, which is added, and with whatever hash, which is set right.
 void readSnapshot(const std::string& input);
 void readBag(const std::string& input);
+/// As OBJ and as STL, as a surface and as a body.
+void readMesh(const std::string& input);
 
 inline const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {
-      {"scenario", readScenario},        {"fly_scenario", flyScenario},
-      {"commands_csv", readCommandsCsv}, {"states_csv", readStatesCsv},
-      {"snapshot", readSnapshot},        {"bag", readBag}};
+  static const std::vector<Target> all = {{"scenario", readScenario},
+                                          {"fly_scenario", flyScenario},
+                                          {"commands_csv", readCommandsCsv},
+                                          {"states_csv", readStatesCsv},
+                                          {"snapshot", readSnapshot},
+                                          {"bag", readBag},
+                                          {"mesh", readMesh}};
   return all;
 }
 

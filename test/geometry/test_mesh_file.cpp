@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
+#include <random>
 #include <string>
 #include <sys/stat.h>
 #include <utility>
@@ -77,6 +78,18 @@ TEST(MeshFile, CoordinatesAreTheNearestDoubles) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(vertex(i) == low(i) || vertex(i) == high(i));
   }
   EXPECT_NEAR(signedVolume(mesh), 0.2 * 11.64567 * 1111.111, 1e-11);
+}
+
+TEST(MeshFile, ABodyThatIsWrittenAndReadHasTheSameMomentsToTheLastBit) {
+  std::mt19937 engine(17);
+  for (int n = 0; n < 20; ++n) {
+    const PolygonMesh star = testing::starMesh(engine);
+    const VolumeMoments written = volumeMoments(star);
+    const VolumeMoments read = volumeMoments(parsedObj(star).mesh);
+    EXPECT_EQ(read.volume, written.volume) << "sample " << n;
+    EXPECT_EQ(read.centroid, written.centroid) << "sample " << n;
+    EXPECT_EQ(read.second_about_centroid, written.second_about_centroid) << "sample " << n;
+  }
 }
 
 double rounded5(double x) {

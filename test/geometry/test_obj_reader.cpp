@@ -122,7 +122,7 @@ TEST(ObjReader, BadIndicesAreNamedWithTheirLine) {
        {"0", "-0", "x", "1.0", "+", "-", "99999999999999999999", "2147483648", "-2147483648", "1e0",
         "1/0", "1/x", "1//0", "1/1/y", "//1", "/"}) {
     EXPECT_EQ(messageOfReading(withLastFace("f 3 4 " + corner)),
-              "it: line 8: '" + corner + "'" + rule);
+              std::string("it: line 8: '").append(corner).append("'").append(rule));
   }
   EXPECT_EQ(messageOfReading(withLastFace("f 3 1 1/1/1/1")),
             "it: line 8: '1/1/1/1': must be v, v/vt, v//vn or v/vt/vn");

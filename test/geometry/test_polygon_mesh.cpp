@@ -48,15 +48,15 @@ TEST(PolygonMesh, AnOpenSurfaceIsRefusedWithItsEdges) {
 // A unit cube at a distance d has the uncertainty 6 m² * d * 5.97e-8 in single precision: 1 % at
 // d = 27900 m. In double precision, 1e-15, it is 1.7e12 m.
 TEST(PolygonMesh, OneTooFarFromItsOriginIsRefused) {
-  const auto cubeAt = [](double d, double rounding) {
+  const auto cube_at = [](double d, double rounding) {
     PolygonMesh cube = boxMesh({d, 0.0, 0.0}, {d + 1.0, 1.0, 1.0});
     cube.rounding = rounding;
     return messageOfChecking(cube);
   };
-  EXPECT_EQ(cubeAt(27000.0, kSingleRounding), "no error");
-  EXPECT_NE(cubeAt(28500.0, kSingleRounding).find("must be known to 1 %"), std::string::npos);
-  EXPECT_EQ(cubeAt(1.6e12, kDoubleRounding), "no error");
-  EXPECT_NE(cubeAt(1.8e12, kDoubleRounding).find("must be known to 1 %"), std::string::npos);
+  EXPECT_EQ(cube_at(27000.0, kSingleRounding), "no error");
+  EXPECT_NE(cube_at(28500.0, kSingleRounding).find("must be known to 1 %"), std::string::npos);
+  EXPECT_EQ(cube_at(1.6e12, kDoubleRounding), "no error");
+  EXPECT_NE(cube_at(1.8e12, kDoubleRounding).find("must be known to 1 %"), std::string::npos);
 }
 
 TEST(PolygonMesh, OneWithoutVolumeIsRefusedHoweverSmall) {

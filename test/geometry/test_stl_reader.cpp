@@ -16,7 +16,6 @@ namespace {
 
 using testing::boxMesh;
 using testing::contentOf;
-using testing::messageOf;
 using testing::messageOfParsing;
 using testing::stlBytes;
 
@@ -171,6 +170,15 @@ TEST(StlReader, WhatIsNoStlIsSaid) {
   EXPECT_NE(messageOfParsing("solid" + std::string(1, '\0') + tetrahedron(), MeshFormat::kStl)
                 .find("have no zero byte"),
             std::string::npos);
+}
+
+// The uncertainty of a unit cube so far away is 6 m² * 28500 m * 5.97e-8 = 1.02 % of it in single
+// precision.
+TEST(StlReader, ABinaryFileIsKnownToSinglePrecisionOnly) {
+  const PolygonMesh far = boxMesh({28500.0, 0.0, 0.0}, {28501.0, 1.0, 1.0});
+  EXPECT_NE(messageOfParsing(stlBytes(far), MeshFormat::kStl).find("must be known to 1 %"),
+            std::string::npos);
+  EXPECT_EQ(messageOfParsing(testing::objText(far), MeshFormat::kObj), "no error");
 }
 
 TEST(StlReader, TheScaleIsAlongEachAxis) {

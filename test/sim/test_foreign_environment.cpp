@@ -38,7 +38,6 @@ namespace {
 using testing::Bits;
 using testing::bitsOf;
 using testing::expectSameBits;
-using testing::Foreign;
 using testing::InForeignEnvironment;
 using testing::kForeign;
 using testing::parsed;
@@ -268,6 +267,7 @@ TEST(ForeignEnvironment, MassPropertiesAreTheSame) {
 
 TEST(ForeignEnvironment, BodiesAndTheirDistancesAreTheSame) {
   std::vector<Vector3> points;
+  points.reserve(40);
   for (int i = 0; i < 40; ++i)
     points.emplace_back(0.3 * exactSin(1.7 * i), 0.2 * exactCos(2.3 * i),
                         0.1 * exactSin(0.9 * i * i));
@@ -323,7 +323,7 @@ TEST(ForeignEnvironment, ReportsAreTheSame) {
   Trajectory b;
   for (int i = 0; i < 9; ++i) {
     TrajectorySample sample;
-    sample.time_ns = 1000 * i;
+    sample.time_ns = std::int64_t{1000} * i;
     sample.p_WB = {0.1 * i, 0.3, 0.7};
     a.samples.push_back(sample);
     sample.p_WB.x() += 0.013 * i;

@@ -22,7 +22,7 @@ using testing::validScenario;
 using testing::with;
 
 /// A scenario whose craft is one mesh; `keys` stand beside its file.
-std::string withMesh(const std::string& keys, const std::string& mass = "mass: 6") {
+std::string withMeshKeys(const std::string& keys, const std::string& mass = "mass: 6") {
   return with(validScenario(), kMassByNumbers,
               "    parts: [{mesh: {file: cube.obj" + keys + "}, " + mass + "}]\n");
 }
@@ -41,25 +41,26 @@ std::vector<std::string> notesOn(const std::string& text) {
 
 // A box of a x b x c: I_xx = m (b² + c²)/12.
 TEST(MeshParser, TheScaleIsOneNumberOrThree) {
-  const MassProperties one = parsed(withMesh(", scale: 0.5")).vehicles[0].mass_properties;
+  const MassProperties one = parsed(withMeshKeys(", scale: 0.5")).vehicles[0].mass_properties;
   EXPECT_DOUBLE_EQ(one.I_BBo_B(0, 0), 0.25);
   EXPECT_EQ(one.p_HB, Vector3(0.25, 0.25, 0.25));
-  const MassProperties three = parsed(withMesh(", scale: [1, 2, 4]")).vehicles[0].mass_properties;
+  const MassProperties three =
+      parsed(withMeshKeys(", scale: [1, 2, 4]")).vehicles[0].mass_properties;
   EXPECT_DOUBLE_EQ(three.I_BBo_B(0, 0), 10.0);
   EXPECT_EQ(three.p_HB, Vector3(0.5, 1.0, 2.0));
-  const Scenario dense = parsed(withMesh(", scale: 0.5", "density: 800"));
+  const Scenario dense = parsed(withMeshKeys(", scale: 0.5", "density: 800"));
   EXPECT_EQ(dense.vehicles[0].mass_properties.mass, 100.0);
 }
 
 TEST(MeshParser, AScaleIsPositive) {
   const std::string beginning = "test.yaml: vehicles.alpha.parts[0].mesh.scale = ";
-  EXPECT_EQ(complaintAbout(withMesh(", scale: 0")), beginning + "0: must be greater than 0");
-  EXPECT_EQ(complaintAbout(withMesh(", scale: [1, -1, 1]")),
+  EXPECT_EQ(complaintAbout(withMeshKeys(", scale: 0")), beginning + "0: must be greater than 0");
+  EXPECT_EQ(complaintAbout(withMeshKeys(", scale: [1, -1, 1]")),
             beginning + "[1, -1, 1]: must be greater than 0");
-  EXPECT_EQ(complaintAbout(withMesh(", scale: .inf")), beginning + ".inf: must be finite");
-  EXPECT_EQ(complaintAbout(withMesh(", scale: [1, 1]")),
+  EXPECT_EQ(complaintAbout(withMeshKeys(", scale: .inf")), beginning + ".inf: must be finite");
+  EXPECT_EQ(complaintAbout(withMeshKeys(", scale: [1, 1]")),
             beginning + "[1, 1]: must be a number or a list of three numbers");
-  EXPECT_EQ(complaintAbout(withMesh(", scale: mm")), beginning + "mm: must be a number");
+  EXPECT_EQ(complaintAbout(withMeshKeys(", scale: mm")), beginning + "mm: must be a number");
 }
 
 /// The greatest coordinate of a hull written by its corners, m.
@@ -88,16 +89,16 @@ TEST(MeshParser, HullsAndObstaclesHaveAScale) {
 }
 
 TEST(MeshParser, ABodyThatWeighsWhatNoCraftWeighsIsAskedAbout) {
-  EXPECT_TRUE(notesOn(withMesh("")).empty());
-  EXPECT_TRUE(notesOn(withMesh("", "density: 1000")).empty());
-  const std::vector<std::string> large = notesOn(withMesh(", scale: 600", "density: 100"));
+  EXPECT_TRUE(notesOn(withMeshKeys("")).empty());
+  EXPECT_TRUE(notesOn(withMeshKeys("", "density: 1000")).empty());
+  const std::vector<std::string> large = notesOn(withMeshKeys(", scale: 600", "density: 100"));
   ASSERT_EQ(large.size(), 1U);
   EXPECT_EQ(large[0],
             "test.yaml: vehicles.alpha.parts[0].mesh = {file: cube.obj, scale: 600}: encloses "
             "2.16e+08 m^3 and weighs 2.16e+10 kg, which no craft does: is the file in millimetres? "
             "Then take the scale 0.001");
-  EXPECT_EQ(notesOn(withMesh(", scale: 600")).size(), 1U);
-  const std::vector<std::string> small = notesOn(withMesh(", scale: 0.001"));
+  EXPECT_EQ(notesOn(withMeshKeys(", scale: 600")).size(), 1U);
+  const std::vector<std::string> small = notesOn(withMeshKeys(", scale: 0.001"));
   ASSERT_EQ(small.size(), 1U);
   EXPECT_NE(small[0].find("is its scale right, and the file not in metres already?"),
             std::string::npos);

@@ -28,7 +28,7 @@ class ListedCommands : public CommandSource {
 
   std::optional<Command> next() override {
     if (commands_.empty()) return std::nullopt;
-    const Command command = commands_.front();
+    Command command = commands_.front();
     commands_.pop_front();
     ++taken_;
     return command;

@@ -82,7 +82,7 @@ class Fields {
  public:
   std::vector<Field> all;
 
-  void number(const std::string& name, std::function<double&(SimulationState&)> of) {
+  void number(const std::string& name, const std::function<double&(SimulationState&)>& of) {
     all.push_back({name, [of](SimulationState& state, double value) { of(state) = value; }, {}});
   }
   template <class Of>
