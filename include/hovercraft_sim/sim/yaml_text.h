@@ -25,7 +25,7 @@ constexpr std::size_t kDeepestYaml = 32;                          // ConfigNode:
 /// Any bytes may come.
 /// @param source what the text is: begins every message.
 /// @throws std::invalid_argument with source, key path or line, and rule.
-ConfigNode treeOf(const std::string& text, const std::string& source);
+HOVERCRAFT_PUBLIC ConfigNode treeOf(const std::string& text, const std::string& source);
 
 /// A name or another text as a YAML scalar that is read as this text and as nothing else, by YAML
 /// 1.1 too: in double quotes if it must be.
