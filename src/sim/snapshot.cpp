@@ -58,10 +58,11 @@ std::string bodyText(const BodyState& state) {
       state);
 }
 
-std::string vehicleText(const std::string& name, const VehicleState& state) {
-  std::string yaml = fmt::format("  {}:\n    body: {}", name, bodyText(state.body));
+std::string vehicleText(const std::string& name, const BodyState& body,
+                        const EngineStates& engines) {
+  std::string yaml = fmt::format("  {}:\n    body: {}", name, bodyText(body));
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    const EngineState& engine = state.engines[i];
+    const EngineState& engine = engines[i];
     yaml += fmt::format("    {}: {{commanded: {:.17g}, thrust: {:.17g}, command_tick: {}}}\n",
                         kEngineNames[i], engine.commanded, engine.thrust, engine.command_tick);
   }
@@ -125,17 +126,15 @@ BodyState parseBodyState(const ConfigReader& body, OrientationKind kind) {
   return parseBody(body, parseMatrix(body));
 }
 
-VehicleState parseVehicle(const ConfigReader& reader, OrientationKind kind) {
-  reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
-  VehicleState state;
-  state.body = parseBodyState(reader.map("body"), kind);
+EngineStates parseEngines(const ConfigReader& reader) {
+  EngineStates engines;
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     const ConfigReader engine = reader.map(kEngineNames[i]);
     engine.allowOnly({"commanded", "thrust", "command_tick"});
-    state.engines[i] = {engine.number("commanded"), engine.number("thrust"),
-                        engine.wholeNumberOr(EngineState::kNever, "command_tick")};
+    engines[i] = {engine.number("commanded"), engine.number("thrust"),
+                  engine.wholeNumberOr(EngineState::kNever, "command_tick")};
   }
-  return state;
+  return engines;
 }
 
 std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenario) {
@@ -190,14 +189,16 @@ std::string toSnapshot(const Simulation& simulation) {
   const SimulationState& state = simulation.state();
   std::string yaml = fmt::format("tick: {}\nseed: {}\nhash: '{:016x}'\nvehicles:\n", state.tick,
                                  state.seed, simulation.hash());
-  for (std::size_t i = 0; i < state.vehicles.size(); ++i) {
-    yaml += vehicleText(scenario.vehicles[i].name, state.vehicles[i]);
+  const std::size_t vehicle_count = scenario.vehicles.size();
+  for (std::size_t i = 0; i < vehicle_count; ++i) {
+    yaml += vehicleText(scenario.vehicles[i].name, state.bodies[i], state.engines[i]);
   }
   if (!state.wrenches.empty()) yaml += "wrenches:\n";
   for (const ExternalWrench& external : state.wrenches) yaml += wrenchText(scenario, external);
-  if (!state.bodies.empty()) yaml += "bodies:\n";
-  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-    yaml += fmt::format("  {}: {}", scenario.world->bodies[i].name, bodyText(state.bodies[i]));
+  if (state.bodies.size() > vehicle_count) yaml += "bodies:\n";
+  for (std::size_t i = vehicle_count; i < state.bodies.size(); ++i) {
+    yaml += fmt::format("  {}: {}", scenario.world->bodies[i - vehicle_count].name,
+                        bodyText(state.bodies[i]));
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
   for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
@@ -225,7 +226,10 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
   state.seed = reader.wholeNumberOr(scenario.seed, "seed");
   const ConfigReader vehicles = reader.map("vehicles");
   for (const VehicleScenario& vehicle : scenario.vehicles) {
-    state.vehicles.push_back(parseVehicle(vehicles.map(vehicle.name), scenario.orientation));
+    const ConfigReader entry = vehicles.map(vehicle.name);
+    entry.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
+    state.bodies.push_back(parseBodyState(entry.map("body"), scenario.orientation));
+    state.engines.push_back(parseEngines(entry));
   }
   if (reader.has("wrenches")) {
     for (const ConfigReader& wrench : reader.list("wrenches")) {

@@ -39,11 +39,24 @@ struct EngineState {
 };
 using EngineStates = std::array<EngineState, kEngineCount>;
 
-/// The thrusts (rear, left, right; N) at the stages of one step.
+/// The thrusts (rear, left, right; N) over one step: at its stages, and in between.
 struct ThrustCourse {
   Vector3 start;
   Vector3 middle;
   Vector3 end;
+
+  /// At a share x of the step, 0 to 1: the parabola through its start, middle and end, which is
+  /// exact there and off by the cube of the step over the lag in between.
+  Vector3 at(double x) const {
+    const double at_start = (1.0 - x) * (1.0 - 2.0 * x);
+    const double at_middle = 4.0 * x * (1.0 - x);
+    const double at_end = x * (2.0 * x - 1.0);
+    return (at_start * start + at_middle * middle) + at_end * end;
+  }
+  /// Over the piece from `from` to `to` of a step of h, all in s.
+  ThrustCourse piece(double from, double to, double h) const {
+    return {at(from / h), at(0.5 * (from + to) / h), at(to / h)};
+  }
 
   const Vector3& at(Stage stage) const {
     if (stage == Stage::kStart) return start;

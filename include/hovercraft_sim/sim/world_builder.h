@@ -25,7 +25,8 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
                        const Mobility& mobility);
 
-/// The world of a scenario that has one: its vehicles, then its loose bodies, both by name.
+/// The bodies of a scenario: its vehicles, then its loose bodies, both by name. Without `world:`
+/// they pass through each other.
 World worldOf(const Scenario& scenario);
 
 }  // namespace hovercraft
