@@ -9,6 +9,7 @@ option(HOVERCRAFT_WARNINGS_AS_ERRORS "A warning stops the build" OFF)
 
 find_package(fmt REQUIRED)
 find_package(yaml-cpp REQUIRED)
+find_package(PNG REQUIRED)
 # Qhull, reentrant: Ubuntu 20.04 has neither a package configuration nor a .pc file for it.
 find_path(qhull_include_dir libqhull_r/qhull_ra.h REQUIRED)
 find_library(qhull_library qhull_r REQUIRED)
@@ -67,7 +68,7 @@ function(hovercraft_shared_library name)
   set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX LINK_DEPENDS ${exported_symbols})
 endfunction()
 
-hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt ${qhull_library})
+hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt PNG::PNG ${qhull_library})
 foreach(module math geometry body cushion hovercraft collision contact world sim)
   hovercraft_unity(hovercraft_core_objects ${module} ${sources_of_${module}})
 endforeach()

@@ -49,7 +49,7 @@ system_family() {
 packages_for() {
   local common
   case "$1" in
-    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
+    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libpng-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
     build) common="$(packages_for core) libboost-program-options-dev" ;;
     fast) common='ccache ninja-build' ;;

@@ -10,16 +10,16 @@
 namespace hovercraft {
 namespace {
 
+/// Heights of a cell that its hem may be pressed in at most, as the hull stands on the ground by
+/// then: what rises higher above a point of the hem is a wall beside it.
+constexpr double kMostCompression = 2.0;
+
 /// The order of hem points within a cell: mirrored cells get mirrored points in the same places.
 bool comesBefore(const HemPoint& a, const HemPoint& b) {
   const auto key = [](const Vector3& p) {
     return std::make_tuple(std::abs(p.x()), std::abs(p.y()), p.z(), p.x(), p.y());
   };
   return key(a.p_HK) < key(b.p_HK);
-}
-
-Vector3 velocityAt(const BodyMotion& motion, const Vector3& p_B) {
-  return motion.v_WB_B + cross(motion.w_WB_B, p_B);
 }
 
 }  // namespace
@@ -52,35 +52,36 @@ class Cushion::PlaneProbe {
 class Cushion::SampledProbe {
  public:
   SampledProbe(const Ground& ground, const BodyMotion& motion, const Cushion& cushion)
-      : point_count_(cushion.points_.size()) {
-    std::array<Vector3, kMaxHemPoints + kMaxCells> points_W;
-    std::size_t count = 0;
-    for (const Point& point : cushion.points_) {
-      points_W[count++] = times(motion.R_WB, point.p_BK) + motion.p_WB;
-    }
-    for (const Cell& cell : cushion.cells_) {
-      points_W[count++] = times(motion.R_WB, cell.p_BC) + motion.p_WB;
-    }
-    ground.sample({points_W.data(), static_cast<int>(count), motion.p_WB.z()}, samples_.data());
-    for (std::size_t i = 0; i < count; ++i) {
-      normals_B_[i] = transposeTimes(motion.R_WB, samples_[i].nhat_W);
-    }
+      : R_WB_(motion.R_WB), point_count_(cushion.points_.size()) {
+    std::array<GroundPoint, kMaxHemPoints + kMaxCells> points;
+    int count = 0;
+    const auto add = [&](const Vector3& p_B) {
+      const Vector3 p_W = times(motion.R_WB, p_B) + motion.p_WB;
+      points[static_cast<std::size_t>(count++)] = {p_W.x(), p_W.y(), p_W.z()};
+    };
+    for (const Point& point : cushion.points_) add(point.p_BK);
+    for (const Cell& cell : cushion.cells_) add(cell.p_BC);
+    const double below = (times(motion.R_WB, cushion.p_BH_) + motion.p_WB).z();
+    ground.sample({points.data(), count, below, cushion.reach_}, samples_.data());
   }
 
   double gapOfPoint(std::size_t point, const Vector3& /*p_BK*/) const {
     return samples_[point].gap;
   }
-  const Vector3& normalAtPoint(std::size_t point) const { return normals_B_[point]; }
-  const Vector3& normalAtCell(std::size_t cell) const { return normals_B_[point_count_ + cell]; }
+  Vector3 normalAtPoint(std::size_t point) const {
+    return transposeTimes(R_WB_, samples_[point].nhat_W());
+  }
+  Vector3 normalAtCell(std::size_t cell) const { return normalAtPoint(point_count_ + cell); }
 
  private:
+  const Matrix3& R_WB_;
   std::size_t point_count_;
   std::array<GroundSample, kMaxHemPoints + kMaxCells> samples_;
-  std::array<Vector3, kMaxHemPoints + kMaxCells> normals_B_;
 };
 
 Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
     : parameters_(parameters),
+      p_BH_(-p_HB),
       outflow_factor_(parameters.discharge * std::sqrt(2.0 / parameters.air_density)) {
   demand(!parameters.cells.empty() && parameters.cells.size() <= kMaxCells,
          "a cushion has at least one cell, and no more than fit");
@@ -104,6 +105,7 @@ Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
     cell.end_point = points_.size();
     demand(cell.end_point > cell.first_point, "a cell has hem");
     total_area_ += cell.area;
+    reach_ = std::max(reach_, kMostCompression * described.height);
     total_length_ += cell.hem_length;
     placed_cells.push_back({cell.p_BC, cell.area});
     cells_.push_back(cell);
@@ -112,6 +114,12 @@ Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
   for (const CushionFan& fan : parameters.fans) intakes_B_.emplace_back(fan.p_HI - p_HB);
   cell_pairs_ = mirrorPairs(placed_cells);
   point_pairs_ = mirrorPairs(placed_points);
+}
+
+FanSpeeds Cushion::describedSpeeds() const {
+  FanSpeeds speeds = {};
+  for (std::size_t i = 0; i < parameters_.fans.size(); ++i) speeds[i] = parameters_.fans[i].speed;
+  return speeds;
 }
 
 /// Pressure and flow of each cell over the ground that the probe sees.
@@ -136,7 +144,7 @@ void Cushion::blow(const BodyMotion& motion, const FanSpeeds& speeds, const Prob
     }
     airs.mean_gap[i] = gaps / cell.hem_length;
     const double outflow = outflow_factor_ * leakArea(area_under_hem, cell.area);
-    const double pumping = cell.area * dot(probe.normalAtCell(i), velocityAt(motion, cell.p_BC));
+    const double pumping = cell.area * dot(probe.normalAtCell(i), motion.velocityAt(cell.p_BC));
     airs.air[i] = cellAir(fans[cell.fan], outflow, pumping);
   }
 }
@@ -173,7 +181,7 @@ Wrench Cushion::skirtWrench(const BodyMotion& motion, const Probe& probe, const 
     const Point& point = points_[k];
     const Vector3 force =
         parameters_.skirt.spring.force(point.stiffness * airs.compression[k],
-                                       probe.normalAtPoint(k), velocityAt(motion, point.p_BK));
+                                       probe.normalAtPoint(k), motion.velocityAt(point.p_BK));
     return {force, cross(point.p_BK, force)};
   };
   Wrench sum;
@@ -237,7 +245,7 @@ Wrench Cushion::planarWrenchInBody(const BodyMotion& motion, const FanSpeeds& sp
   const double per_metre = left / total_length_;
   const auto wrenchOf = [&](int index) -> Wrench {
     const Point& point = points_[static_cast<std::size_t>(index)];
-    Vector3 velocity = velocityAt(motion, point.p_BK);
+    Vector3 velocity = motion.velocityAt(point.p_BK);
     velocity.z() = 0.0;
     const Vector3 force =
         parameters_.skirt.spring.force(per_metre * point.length, Vector3::UnitZ(), velocity);

@@ -117,6 +117,18 @@ BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
   return mobility.stateOfMotion(vehicle.initial_p_WB, rotationFromRpy(vehicle.initial_rpy), twist);
 }
 
+std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {
+  const FloatingPointEnvironment environment;
+  std::vector<WorldObstacle> obstacles;
+  for (const ObstacleScenario& obstacle : world.obstacles) {
+    const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
+    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
+    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
+                         static_cast<int>(obstacle.material)});
+  }
+  return obstacles;
+}
+
 World worldOf(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   const WorldScenario& world = *scenario.world;
@@ -144,14 +156,7 @@ World worldOf(const Scenario& scenario) {
           {body.name, modelOf(scenario, body), hullOf(body), static_cast<int>(body.material)});
     }
   }
-  std::vector<WorldObstacle> obstacles;
-  for (const ObstacleScenario& obstacle : world.obstacles) {
-    const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
-    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
-    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
-                         static_cast<int>(obstacle.material)});
-  }
-  return {std::move(rules), std::move(bodies), std::move(obstacles)};
+  return {std::move(rules), std::move(bodies), obstaclesOf(world)};
 }
 
 }  // namespace hovercraft

@@ -49,7 +49,7 @@ const std::map<std::string, Rule>& rules() {
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
       {"sim",
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact", "world"},
-        {"fmt/", "yaml-cpp/", "fcntl.h", "sys/stat.h", "unistd.h"}}},
+        {"fmt/", "yaml-cpp/", "png.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros", {{"math", "geometry", "body", "cushion", "hovercraft", "sim"}, of_ros}},
       {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
       {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},

@@ -18,7 +18,7 @@ inline CushionParameters rc5Cushion() {
   CushionParameters cushion;
   cushion.discharge = 0.6;
   cushion.residual_gap = 1e-4;
-  cushion.fans = {{{935.264, 0.0, 1737300.0}, Vector3::Zero()}};
+  cushion.fans = {{"lift", {935.264, 0.0, 1737300.0}}};
   for (const double x : {1.0, -1.0}) {
     for (const double y : {1.0, -1.0}) {
       CushionCell cell;

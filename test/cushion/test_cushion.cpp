@@ -193,7 +193,7 @@ TEST(Cushion, WhereThereIsNoGroundTheCellsAreOpen) {
   class Nothing : public Ground {
    public:
     void sample(const GroundQuery& query, GroundSample* samples) const override {
-      for (int i = 0; i < query.count; ++i) samples[i] = GroundSample();
+      for (int i = 0; i < query.count; ++i) samples[i] = kOverNothing;
     }
   };
   const Cushion cushion(rc5Cushion(), Vector3::Zero());

@@ -100,7 +100,7 @@ TEST(Hover, MarginIsThatOfTheCubicOfCompressibleAir) {
     parameters.cells = {cell};
     const double pressure = 8000.0 * kGravity / 20.0;
     const double flow = 0.6 * leakArea(18.0 * gap, 20.0) * std::sqrt(2.0 * pressure / 1.225);
-    parameters.fans = {{{2.0 * pressure, 0.0, pressure / (flow * flow)}, Vector3::Zero()}};
+    parameters.fans = {{"lift", {2.0 * pressure, 0.0, pressure / (flow * flow)}}};
     const Hover hover = hoverOf(Cushion(parameters, Vector3::Zero()),
                                 {8000.0, Matrix3::Identity(), kGravity}, allAt(1.0));
     ASSERT_EQ(hover.status, HoverStatus::kHovers);

@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/cushion/body_motion.h"
 #include "hovercraft_sim/cushion/cell_pressure.h"
 #include "hovercraft_sim/cushion/fan_curve.h"
 #include "hovercraft_sim/cushion/ground.h"
@@ -37,8 +39,10 @@ struct CushionCell {
 
 /// A lift fan as each of the cells that it feeds sees it.
 struct CushionFan {
+  std::string name;
   FanCurve curve;                  // of one cell's share
   Vector3 p_HI = Vector3::Zero();  // intake, in the hull frame, m
+  double speed = 1.0;              // share of the nominal speed, >= 0
 };
 
 /// The skirt as a spring.
@@ -55,15 +59,6 @@ struct CushionParameters {
   std::vector<CushionFan> fans;
   std::vector<CushionCell> cells;
   Skirt skirt;
-};
-
-/// How a craft moves, in its body frame B.
-struct BodyMotion {
-  Matrix3 R_WB;
-  Vector3 p_WB;    // m
-  Vector3 v_WB_B;  // m/s, of B in W
-  Vector3 w_WB_B;  // rad/s
-  Vector3 u_B;     // m/s, of B relative to the air
 };
 
 /// The speeds of the fans, shares of their nominal ones.
@@ -100,6 +95,9 @@ class HOVERCRAFT_PUBLIC Cushion {
   void report(const BodyMotion& motion, const FanSpeeds& speeds, const Ground& ground,
               CellReport* reports) const;
   void planarReport(const FanSpeeds& speeds, double load, CellReport* reports) const;
+
+  /// The fans' speeds as they are described.
+  FanSpeeds describedSpeeds() const;
 
   std::size_t cellCount() const { return cells_.size(); }
   const CushionParameters& parameters() const { return parameters_; }
@@ -140,6 +138,8 @@ class HOVERCRAFT_PUBLIC Cushion {
   std::vector<MirrorPair> cell_pairs_;
   std::vector<MirrorPair> point_pairs_;
   std::vector<Vector3> intakes_B_;  // of each fan, m
+  Vector3 p_BH_;                    // origin of the hull frame, m
+  double reach_ = 0.0;              // m: what rises above a hem point by more is a wall
   double outflow_factor_ = 0.0;     // C_d sqrt(2/rho)
   double total_area_ = 0.0;         // m²
   double total_length_ = 0.0;       // m

@@ -9,10 +9,18 @@ namespace hovercraft {
 /// its square is far from the largest double.
 constexpr double kNoGround = 1e6;
 
-/// The ground as one point sees it.
+/// The ground as one point sees it: plain numbers, so that an array of them costs nothing to make.
 struct GroundSample {
-  double gap = kNoGround;             // m, height above it, along its normal; negative: below it
-  Vector3 nhat_W = Vector3::UnitZ();  // its normal, unit
+  double gap;         // m, height of the point above it, along its normal; negative: below it
+  double nx, ny, nz;  // its normal in W, unit, nz > 0
+
+  Vector3 nhat_W() const { return {nx, ny, nz}; }
+};
+constexpr GroundSample kOverNothing = {kNoGround, 0.0, 0.0, 1.0};
+
+/// A point in W, m.
+struct GroundPoint {
+  double x, y, z;
 };
 
 /// The plane nhat · p = offset, in W.
@@ -25,9 +33,10 @@ struct GroundPlane {
 
 /// Points that ask for the ground.
 struct GroundQuery {
-  const Vector3* points_W = nullptr;
+  const GroundPoint* points = nullptr;
   int count = 0;
-  double below = 0.0;  // m: of what lies over each other the highest whose underside is lower
+  double below = 0.0;        // m: of what lies over each other the highest whose underside is lower
+  double reach = kNoGround;  // m: what rises above a point by more is a wall beside it
 };
 
 /// What a cushion blows on, and what pads stand on: the same for both. It does not move, and is
