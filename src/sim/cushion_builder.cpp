@@ -24,6 +24,18 @@ Pads padsOf(const Scenario& scenario, const VehicleScenario& body) {
   return {hullOf(body).vertices(), weight, scenario.ground->pads};
 }
 
+std::shared_ptr<const GroundForces> groundForcesOf(const Scenario& scenario,
+                                                   const VehicleScenario& body) {
+  std::optional<Cushion> cushion = cushionOf(body);
+  Pads pads = padsOf(scenario, body);
+  if (!cushion && pads.empty()) return nullptr;
+  std::optional<double> planar_load;
+  if (scenario.model == BodyModel::kPlanar) {
+    planar_load = body.mass_properties.mass * -scenario.gravity.z();
+  }
+  return std::make_shared<GroundForces>(std::move(cushion), std::move(pads), planar_load);
+}
+
 std::shared_ptr<const Ground> bareGroundOf(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   return scenario.ground ? surfaceOf(*scenario.ground) : nullptr;

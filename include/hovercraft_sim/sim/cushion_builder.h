@@ -7,6 +7,7 @@
 #include "hovercraft_sim/cushion/ground.h"
 #include "hovercraft_sim/cushion/hover.h"
 #include "hovercraft_sim/cushion/pads.h"
+#include "hovercraft_sim/hovercraft/ground_forces.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/scenario.h"
 
@@ -18,6 +19,10 @@ HOVERCRAFT_PUBLIC std::optional<Cushion> cushionOf(const VehicleScenario& vehicl
 /// The vertices by which a craft or a loose body stands on `ground`: those of its hull, in a
 /// spatial scenario with a ground. None without a hull.
 Pads padsOf(const Scenario& scenario, const VehicleScenario& body);
+
+/// Cushion and pads of a craft or a loose body; none if it has neither.
+std::shared_ptr<const GroundForces> groundForcesOf(const Scenario& scenario,
+                                                   const VehicleScenario& body);
 
 /// The surface of `ground`, without the obstacles of the world: what pads stand on. None without
 /// it.

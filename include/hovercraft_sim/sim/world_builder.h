@@ -29,7 +29,8 @@ HOVERCRAFT_PUBLIC BodyState initialState(const Scenario& scenario, const Vehicle
 /// What never moves in a world, by name.
 std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world);
 
-/// The world of a scenario that has one: its vehicles, then its loose bodies, both by name.
+/// The bodies of a scenario: its vehicles, then its loose bodies, both by name. Without `world:`
+/// they pass through each other.
 HOVERCRAFT_PUBLIC World worldOf(const Scenario& scenario);
 
 }  // namespace hovercraft
