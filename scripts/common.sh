@@ -49,7 +49,7 @@ system_family() {
 packages_for() {
   local common
   case "$1" in
-    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
+    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libpng-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
     build) common="$(packages_for core) libboost-program-options-dev" ;;
     fast) common='ccache ninja-build' ;;
@@ -142,7 +142,7 @@ explain_unknown_system() {
   cat >&2 << 'TEXT'
 This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install these by hand, then run this again:
   a C++17 compiler, make, CMake 3.16, Python 3 with matplotlib
-  Boost (program_options), Eigen 3.3, fmt, qhull, yaml-cpp (with their headers)
+  Boost (program_options), Eigen 3.3, fmt, libpng, qhull, yaml-cpp (with their headers)
   ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, std_msgs, std_srvs, rosgraph_msgs,
   visualization_msgs, diagnostic_updater, dynamic_reconfigure, message_generation, roslaunch, rosservice, rosbash, rosout; for the
   tests also rostest, rostopic, rosnode, rosmsg, GoogleTest, Google Benchmark, clang with its sanitizers' runtime;

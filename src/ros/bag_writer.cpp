@@ -111,6 +111,7 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
     write(topic(messages, kOdomTopic), stamp, messages.odom());
     write(topic(messages, kEnginesTopic), stamp, messages.engines());
     write(topic(messages, kStateTopic), stamp, messages.state());
+    if (messages.hasCushion()) write(topic(messages, kCushionTopic), stamp, messages.cushion());
     transforms_.transforms.push_back(messages.transform());
   }
   for (BodyMessages& messages : bodies_) {

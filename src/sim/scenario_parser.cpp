@@ -11,6 +11,8 @@
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/cushion_parser.h"
+#include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
@@ -214,13 +216,14 @@ namespace {
 VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
                              const ScenarioSource& source, BodyModel model) {
   reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "hull",
-                    "material", "visual", "initial"});
+                    "material", "visual", "initial", "cushion"});
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   const ConfigReader engines = reader.map("engines");
   engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     vehicle.engines[i] = parseEngine(engines.map(kEngineNames[i]));
   }
+  vehicle.cushion = parseCushion(reader);
   return vehicle;
 }
 
@@ -230,7 +233,7 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
   reader.allowOnly({"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed",
-                    "vehicles", "world"});
+                    "vehicles", "world", "ground"});
   Scenario scenario;
   scenario.step_ns = nanoseconds(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
@@ -246,7 +249,9 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
     scenario.vehicles.push_back(parseVehicle(name, vehicle, source, scenario.model));
   }
   if (scenario.vehicles.empty()) reader.fail("vehicles", "must name at least one vehicle");
+  scenario.ground = parseGround(reader, source);
   parseWorld(reader, source, scenario);
+  checkCushions(reader, source, scenario);
   return scenario;
 }
 

@@ -6,6 +6,8 @@
 #include <variant>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/cushion_parser.h"
+#include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
@@ -78,6 +80,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
   std::string yaml = fmt::format("  {}:\n{}", yamlText(vehicle.name), massText(vehicle));
   if (has_engines) yaml += engineText(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
+  yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";
   yaml += fmt::format(
       "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}}}\n",
@@ -105,6 +108,7 @@ std::string toYaml(const Scenario& scenario) {
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     yaml += vehicleText(vehicle, scenario, true);
   }
+  yaml += groundYaml(scenario);
   yaml += worldYaml(scenario);
   if (!scenario.world || scenario.world->bodies.empty()) return yaml;
   yaml += "  bodies:\n";

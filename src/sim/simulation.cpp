@@ -9,6 +9,7 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/cushion_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -45,13 +46,19 @@ bool settle(RigidBodyState<Orientation>& body) {
 }  // namespace
 
 Simulation::Simulation(Scenario scenario)
-    : scenario_(std::move(scenario)), world_(worldOf(scenario_)) {
+    : scenario_(std::move(scenario)),
+      world_(worldOf(scenario_)),
+      ground_(groundOf(scenario_)),
+      bare_ground_(bareGroundOf(scenario_)) {
   const FloatingPointEnvironment environment;
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     engine_dynamics_.emplace_back(vehicle.engines, scenario_.step_ns);
   }
   inputs_.resize(world_.scene().bodies().size());
-  for (StepInputs& inputs : inputs_) inputs.environment.wind_W = scenario_.wind;
+  environment_.wind_W = scenario_.wind;
+  environment_.ground = ground_.get();
+  environment_.bare_ground = bare_ground_.get();
+  for (StepInputs& inputs : inputs_) inputs.environment = environment_;
   reset(scenario_.seed);
 }
 
@@ -270,6 +277,29 @@ Motion Simulation::motionAfterSetting(std::size_t vehicle, const Vector3& p_WB,
 Motion Simulation::bodyMotion(std::size_t body) const {
   const FloatingPointEnvironment environment;
   return motionOf(modelOf(vehicleCount() + body), state_.bodies[vehicleCount() + body]);
+}
+
+std::size_t Simulation::cellCount(std::size_t vehicle) const {
+  const auto& forces = modelOf(vehicle).ground_forces;
+  return forces != nullptr && forces->cushion() ? forces->cushion()->cellCount() : 0;
+}
+
+void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const {
+  const FloatingPointEnvironment environment;
+  const HovercraftModel& model = modelOf(vehicle);
+  report.cells.resize(cellCount(vehicle));
+  report.fan_speeds.clear();
+  report.power = 0.0;
+  if (report.cells.empty()) return;
+  const BodyMotion motion =
+      std::visit([&](const auto& state) { return model.motionInBody(state, environment_); },
+                 state_.bodies[vehicle]);
+  const GroundForces& forces = *model.ground_forces;
+  forces.report(motion, environment_, report.cells.data());
+  for (const CellReport& cell : report.cells) report.power += cell.pressure * cell.flow;
+  const std::size_t fan_count = forces.cushion()->parameters().fans.size();
+  report.fan_speeds.assign(forces.fanSpeeds().begin(),
+                           forces.fanSpeeds().begin() + static_cast<std::ptrdiff_t>(fan_count));
 }
 
 EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {

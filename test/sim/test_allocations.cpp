@@ -1,5 +1,6 @@
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -39,6 +40,16 @@ long allocationsWhileDriven(const Scenario& scenario) {
   const long taken = allocations - before;
   EXPECT_EQ(applied, 2002U);
   return taken;
+}
+
+TEST(Allocations, NoneInAStepOnACushionOverAnyGround) {
+  for (const char* name : {"rc5", "rough", "ramp"}) {
+    Simulation simulation(loadScenario("config/" + std::string(name) + ".yaml"));
+    for (int n = 0; n < 300; ++n) simulation.step();
+    const long before = allocations;
+    for (int n = 0; n < 300; ++n) simulation.step();
+    EXPECT_EQ(allocations - before, 0) << name;
+  }
 }
 
 TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <memory>
+
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/hovercraft/drag.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/environment.h"
+#include "hovercraft_sim/hovercraft/ground_forces.h"
 
 namespace hovercraft {
 
@@ -14,7 +17,19 @@ struct HovercraftModel {
   Mobility mobility;
   EngineGeometry engines;
   Drag drag;
-  Vector3 weight_W = Vector3::Zero();  // m g, N
+  Vector3 weight_W = Vector3::Zero();                           // m g, N
+  std::shared_ptr<const GroundForces> ground_forces = nullptr;  // none: nothing of it is asked
+
+  /// How a body moves, in B.
+  template <class Orientation>
+  BodyMotion motionInBody(const RigidBodyState<Orientation>& state,
+                          const Environment& environment) const {
+    const Matrix3 R_WB = rotationMatrix(state.orientation);
+    const Vector3 v_WB = mobility.velocity(state.momentum_W);
+    return {R_WB, state.p_WB, transposeTimes(R_WB, v_WB),
+            mobility.angularVelocityInBody(state.angular_momentum_W, R_WB),
+            transposeTimes(R_WB, v_WB - environment.wind_W)};
+  }
 
   /// dY/dt with the engines at `thrusts` (rear, left, right; N) in the air of `environment`. The
   /// wrench is built in B and rotated into W, its moment as its force (errata 18).
@@ -26,7 +41,11 @@ struct HovercraftModel {
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
     const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
     const Vector3 u_B = transposeTimes(R_WB, v_WB - environment.wind_W);
-    const Wrench wrench_B = engines.wrenchInBody(thrusts) + drag.wrenchInBody(u_B, w_WB_B);
+    Wrench wrench_B = engines.wrenchInBody(thrusts) + drag.wrenchInBody(u_B, w_WB_B);
+    if (ground_forces != nullptr) {
+      const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
+      wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment);
+    }
     const Wrench wrench_W =
         mobility.project({times(R_WB, wrench_B.force) + weight_W, times(R_WB, wrench_B.torque)});
     return {v_WB, orientationRate(times(R_WB, w_WB_B), state.orientation), wrench_W.force,

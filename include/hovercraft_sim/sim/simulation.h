@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -73,6 +74,13 @@ struct EngineReport {
   double command_age;  // s of simulated time; -1 before the first command
 };
 
+/// The cushion of a craft as it is reported.
+struct CushionReport {
+  std::vector<CellReport> cells;   // in the order of the scenario
+  std::vector<double> fan_speeds;  // of each fan, shares of their nominal speeds
+  double power = 0.0;              // W, that the fans put into the air
+};
+
 /// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
 /// allocation in step(); the same scenario and the same commands at the same ticks give the same
 /// bits, whatever the program was compiled with and whatever the floating-point environment of its
@@ -129,6 +137,10 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// Null if the scenario has no world.
   const World* world() const { return scenario_.world ? &world_ : nullptr; }
   EngineReport engineReport(std::size_t vehicle, int engine) const;
+  /// Cells of the cushion of a craft; 0 without one.
+  std::size_t cellCount(std::size_t vehicle) const;
+  /// The cushion of a craft as it is now; no cells without one. @param report replaced.
+  void cushionReport(std::size_t vehicle, CushionReport& report) const;
 
   /// Hash of everything that determines the future of one craft, or of all: FNV-1a, 64 bits,
   /// defined in ARCHITECTURE.md.
@@ -157,6 +169,9 @@ class HOVERCRAFT_PUBLIC Simulation {
 
   Scenario scenario_;
   World world_;
+  std::shared_ptr<const Ground> ground_;         // what cushions blow on; none
+  std::shared_ptr<const Ground> bare_ground_;    // what pads stand on; none
+  Environment environment_;                      // of every body
   std::vector<EngineDynamics> engine_dynamics_;  // of each vehicle
   SimulationState state_;
   std::vector<StepInputs> inputs_;  // of each body, in the step that is made
