@@ -59,6 +59,7 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
       contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.frames.world));
     };
   }
+  addSensors(handle);
   advertiseTransforms(handle);
   scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
   events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
@@ -77,9 +78,9 @@ void HovercraftNode::addVehicle(const ros::NodeHandle& handle, std::size_t vehic
   };
   // In lockstep the states are latched: a controller answers only those that are waited at.
   const auto stands = [this] { return !config_.lockstep && this->stands(); };
-  vehicles_.push_back(std::make_unique<VehicleInterface>(handle, run_, vehicle, config_.frames,
-                                                         VehicleInterface::Owner{take, stands},
-                                                         config_.lockstep));
+  vehicles_.push_back(std::make_unique<VehicleInterface>(
+      handle, run_, vehicle, config_.frames,
+      VehicleInterface::Owner{take, stands, config_.truth_odom}, config_.lockstep));
 }
 
 void HovercraftNode::addBody(const ros::NodeHandle& handle, std::size_t body) {
@@ -90,6 +91,17 @@ void HovercraftNode::addBody(const ros::NodeHandle& handle, std::size_t body) {
     return &bodies_[body].pose();
   };
   body_poses_.emplace_back(space, kPoseTopic, kBodyQueue, present);
+}
+
+void HovercraftNode::addSensors(const ros::NodeHandle& handle) {
+  if (run_.simulation().sensors() == nullptr) return;
+  // Where the truth has another name, a stack that listens to odom finds the noisy one.
+  const bool is_renamed = config_.truth_odom != kOdomTopic;
+  sensors_.emplace(handle, run_, config_.frames, is_renamed ? kOdomTopic : kOdometryTopic,
+                   config_.lockstep);
+  run_.simulation().on_sample = [this](const hovercraft::SensorSample& sample) {
+    sensors_->publish(sample);
+  };
 }
 
 void HovercraftNode::advertiseTransforms(ros::NodeHandle handle) {
@@ -120,10 +132,16 @@ Claims HovercraftNode::claims() const {
   claims.clock = config_.clock;
   for (const auto& vehicle : vehicles_) {
     for (const std::string& topic : vehicle->topics()) claims.topics.insert(topic);
-    claims.frames.insert(vehicle->messages().transform().child_frame_id);
+    if (vehicle->messages().hasTransform()) {
+      claims.frames.insert(vehicle->messages().transform().child_frame_id);
+    }
     for (const auto& frame : vehicle->messages().engineFrames(run_.stampOf(1))) {
       claims.frames.insert(frame.child_frame_id);
     }
+  }
+  if (sensors_) {
+    for (const std::string& topic : sensors_->topics()) claims.topics.insert(topic);
+    for (const auto& frame : sensors_->frames()) claims.frames.insert(frame.child_frame_id);
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     claims.topics.insert(body_poses_[i].topic());
@@ -140,6 +158,10 @@ void HovercraftNode::publishConstants() {
   for (const auto& vehicle : vehicles_) {
     const auto engines = vehicle->messages().engineFrames(run_.stampOf(1));
     frames.insert(frames.end(), engines.begin(), engines.end());
+  }
+  if (sensors_) {
+    const auto sensor_frames = sensors_->frames();
+    frames.insert(frames.end(), sensor_frames.begin(), sensor_frames.end());
   }
   static_transforms_.sendTransform(frames);
 }

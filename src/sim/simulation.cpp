@@ -10,6 +10,7 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -69,6 +70,7 @@ Simulation::Simulation(Scenario scenario) : scenario_(std::move(scenario)) {
     world_.emplace(worldOf(scenario_));
     drives_.resize(world_->bodies().size());
   }
+  sensors_ = sensorSuiteOf(scenario_);
   before_.reserve(models_.size());
   reset(scenario_.seed);
 }
@@ -88,12 +90,15 @@ void Simulation::reset(std::int64_t seed) {
     }
     partTouching(-1);
   }
+  startSensors();
 }
 
 void Simulation::restore(const SimulationState& state) {
   demand(state.vehicles.size() == models_.size() &&
              state.bodies.size() == (world_ ? scenario_.world->bodies.size() : 0),
          "a state must come from the same scenario");
+  demand(!sensors_ || sensors_->fits(state.sensors, state.tick),
+         "what sensors remember must come from the same scenario");
   state_ = state;
 }
 
@@ -101,15 +106,17 @@ void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quate
                            const Twist& twist) {
   const FloatingPointEnvironment environment;
   state_.vehicles.at(vehicle).body = placed(p_WB, q_WB, twist, models_[vehicle].mobility);
-  if (!world_) return;
-  const auto index = static_cast<std::int32_t>(vehicle);
-  auto& contacts = state_.contacts;
-  contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
-                                [index](const ContactMemory& contact) {
-                                  return contact.a == index || contact.b == index;
-                                }),
-                 contacts.end());
-  partTouching(index);
+  if (world_) {
+    const auto index = static_cast<std::int32_t>(vehicle);
+    auto& contacts = state_.contacts;
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                  [index](const ContactMemory& contact) {
+                                    return contact.a == index || contact.b == index;
+                                  }),
+                   contacts.end());
+    partTouching(index);
+  }
+  relocateSensors(vehicle);
 }
 
 BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
@@ -239,9 +246,11 @@ void Simulation::step() {
     }
   }
   ++state_.tick;
-  if (!world_ || !on_contact) return;
-  sortRecords();
-  for (const ContactRecord& record : records_) on_contact(eventOf(record));
+  if (world_ && on_contact) {
+    sortRecords();
+    for (const ContactRecord& record : records_) on_contact(eventOf(record));
+  }
+  if (sensors_) readSensors();
 }
 
 void Simulation::stepWorld() {

@@ -12,6 +12,9 @@ namespace hovercraft {
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kIntegratorNames;
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kOrientationNames;
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kModelNames;
+/// Those of TfSource and of SensorKind.
+extern HOVERCRAFT_PUBLIC const std::vector<std::string> kTfSourceNames;
+extern HOVERCRAFT_PUBLIC const std::vector<std::string> kSensorKindNames;
 /// The words for the frames of an external wrench, in the order of ExternalWrench::Frame.
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kFrameNames;
 

@@ -13,6 +13,7 @@
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sensors/sensor_suite.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/world/world.h"
@@ -44,6 +45,7 @@ struct SimulationState {
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
   std::vector<BodyState> bodies;         // loose ones, in the order of the scenario
   std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
+  std::vector<SensorState> sensors;      // of all craft, in the order of the scenario
   CommandLog commands;                   // that have not taken effect
 };
 
@@ -144,10 +146,23 @@ class HOVERCRAFT_PUBLIC Simulation {
   std::uint64_t hash(std::size_t vehicle) const;
   std::uint64_t hash() const;
 
+  /// Hash of what determines the samples to come of one craft's sensors, or of all: memories, and
+  /// samples on their way. 0 without sensors. Sensors act on no body, and hash() does not know
+  /// them.
+  std::uint64_t sensorHash(std::size_t vehicle) const;
+  std::uint64_t sensorHash() const;
+  /// The next tick after this one at which a sample may be delivered; the greatest there is without
+  /// sensors.
+  Tick nextSampleTick() const;
+  /// Null if no craft has sensors.
+  const SensorSuite* sensors() const { return sensors_ ? &*sensors_ : nullptr; }
+
   /// Called for every command when it takes effect; not set: nothing is called.
   std::function<void(const Command&)> on_applied;
   /// Called for every contact of a step, in the order of time, when the step is done.
   std::function<void(const ContactEvent&)> on_contact;
+  /// Called for every sample that is due, when the step is done and its contacts have been told.
+  SampleSink on_sample;
 
  private:
   void applyDueCommands();
@@ -157,6 +172,9 @@ class HOVERCRAFT_PUBLIC Simulation {
   [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
   void stepWorld();
+  void startSensors();
+  void relocateSensors(std::size_t vehicle);
+  void readSensors();
   void sortRecords();
   ContactEvent eventOf(const ContactRecord& record) const;
   BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
@@ -169,6 +187,7 @@ class HOVERCRAFT_PUBLIC Simulation {
   std::vector<EngineDynamics> engine_dynamics_;
   SimulationState state_;
   std::optional<World> world_;
+  std::optional<SensorSuite> sensors_;
   std::vector<VehicleState> before_;  // of a step of several craft without a world
   // Of a step of a world, until all of it is known to be sound: vehicles, then loose bodies.
   std::vector<BodyState> moving_;

@@ -1,0 +1,67 @@
+#include <limits>
+
+#include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/simulation.h"
+#include "hovercraft_sim/sim/state_hash.h"
+
+/// What a simulation does with sensors: it has them read its bodies, and hands their samples on.
+
+namespace hovercraft {
+namespace {
+
+/// The bodies of a state as sensors see them.
+class SensedStates : public BodyStates {
+ public:
+  explicit SensedStates(const SimulationState& state) : state_(state) {}
+
+  const BodyState& of(std::size_t body) const override {
+    const std::size_t count = state_.vehicles.size();
+    return body < count ? state_.vehicles[body].body : state_.bodies[body - count];
+  }
+
+ private:
+  const SimulationState& state_;
+};
+
+}  // namespace
+
+void Simulation::startSensors() {
+  if (!sensors_) return;
+  state_.sensors = sensors_->start(state_.seed, state_.tick, SensedStates(state_));
+}
+
+void Simulation::relocateSensors(std::size_t vehicle) {
+  if (!sensors_) return;
+  sensors_->relocate(vehicle, state_.seed, state_.tick, SensedStates(state_), state_.sensors);
+}
+
+void Simulation::readSensors() {
+  {
+    const FloatingPointEnvironment environment;
+    sensors_->sample(state_.seed, state_.tick, SensedStates(state_), state_.sensors);
+  }
+  sensors_->deliver(state_.tick, state_.sensors, on_sample);
+}
+
+Tick Simulation::nextSampleTick() const {
+  return sensors_ ? sensors_->nextDelivery(state_.tick, state_.sensors)
+                  : std::numeric_limits<Tick>::max();
+}
+
+std::uint64_t Simulation::sensorHash(std::size_t vehicle) const {
+  if (!sensors_) return 0;
+  const SensorSuite::Range range = sensors_->rangeOf(vehicle);
+  if (range.first == range.last) return 0;
+  StateHash hash;
+  for (std::size_t i = range.first; i < range.last; ++i) hash.add(state_.sensors[i]);
+  return hash.value();
+}
+
+std::uint64_t Simulation::sensorHash() const {
+  if (!sensors_) return 0;
+  StateHash hash;
+  for (const SensorState& sensor : state_.sensors) hash.add(sensor);
+  return hash.value();
+}
+
+}  // namespace hovercraft
