@@ -12,8 +12,8 @@ namespace {
 constexpr double kReferencePerLag = 4.0;   // a second-order loop of this ratio does not overshoot
 constexpr double kFastestReference = 0.1;  // s: some ten samples of a controller
 constexpr double kIntegralTimes = 10.0;    // slower than the error
-constexpr double kYawFirst =
-    10.0;  // an error of yaw counts so much more than one of the same share
+// An error of yaw counts so much more than one of speed of the same share: it is made first.
+constexpr double kYawFirst = 100.0;
 constexpr double kLongestStep = 0.1;  // s: after a pause the law does not leap
 
 Vector3 asVector(const PlanarVelocity& velocity) {

@@ -1,9 +1,11 @@
 #include <rosgraph_msgs/Clock.h>
 #include <utility>
 
+#include <nav_msgs/OccupancyGrid.h>
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/hovercraft_node.h"
+#include "hovercraft_sim/sim/occupancy.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 /// What a node advertises, and what it tells who subscribes; hovercraft_node.cpp has what it does.
@@ -66,6 +68,7 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
   telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
   if (config_.clock) clock_.emplace(clockOn(handle, config_.clock_rate));
   publishConstants();
+  if (config_.map_height) publishMap(handle);
   graph_watch_.emplace(handle, claims());
   addReports(own);
   setRealTimeFactor(config_.real_time_factor);
@@ -132,7 +135,7 @@ Claims HovercraftNode::claims() const {
   claims.clock = config_.clock;
   for (const auto& vehicle : vehicles_) {
     for (const std::string& topic : vehicle->topics()) claims.topics.insert(topic);
-    if (vehicle->messages().hasTransform()) {
+    if (vehicle->messages().tf() != hovercraft::TfSource::kNone) {
       claims.frames.insert(vehicle->messages().transform().child_frame_id);
     }
     for (const auto& frame : vehicle->messages().engineFrames(run_.stampOf(1))) {
@@ -148,6 +151,26 @@ Claims HovercraftNode::claims() const {
     claims.frames.insert(bodies_[i].transform().child_frame_id);
   }
   return claims;
+}
+
+void HovercraftNode::publishMap(ros::NodeHandle handle) {
+  hovercraft::OccupancyRequest request;
+  request.height = *config_.map_height;
+  request.resolution = config_.map_resolution;
+  const hovercraft::OccupancyMap map = hovercraft::occupancyOf(config_.scenario, request);
+  nav_msgs::OccupancyGrid grid;
+  grid.header.frame_id = config_.frames.world;
+  grid.header.stamp = run_.stampOf(1);
+  grid.info.map_load_time = grid.header.stamp;
+  grid.info.resolution = static_cast<float>(map.resolution);
+  grid.info.width = static_cast<std::uint32_t>(map.width);
+  grid.info.height = static_cast<std::uint32_t>(map.height);
+  grid.info.origin.position.x = map.origin_x;
+  grid.info.origin.position.y = map.origin_y;
+  grid.info.origin.orientation.w = 1.0;
+  grid.data = map.cells;
+  map_ = handle.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+  map_.publish(grid);
 }
 
 void HovercraftNode::publishConstants() {

@@ -136,6 +136,16 @@ void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
   config.control_period = *steps;
 }
 
+void readMap(const hovercraft::ConfigReader& reader, NodeConfig& config) {
+  config.map_resolution =
+      reader.numberOr(config.map_resolution, "map_resolution", hovercraft::kPositive);
+  if (reader.has("map_height")) {
+    config.map_height = reader.number("map_height", hovercraft::kCoordinate);
+  } else if (reader.has("map_resolution")) {
+    reader.fail("map_resolution", "has a meaning with map_height only");
+  }
+}
+
 /// A topic below the namespace of each craft.
 std::string readTruthOdom(const hovercraft::ConfigReader& reader, const std::string& fallback) {
   if (!reader.has("truth_odom")) return fallback;
@@ -173,14 +183,15 @@ NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::
   const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::ConfigReader reader(parameters, node_name);
   reader.allowOnly({"scenario", "scenario_dir", "scenario_file", "set", "publish_rate",
-                    "world_frame", "tf_prefix", "truth_odom", "real_time_factor", "paused", "clock",
-                    "clock_rate", "lockstep", "control_period", "lockstep_timeout",
-                    "diagnostic_period"});
+                    "world_frame", "tf_prefix", "truth_odom", "map_height", "map_resolution",
+                    "real_time_factor", "paused", "clock", "clock_rate", "lockstep",
+                    "control_period", "lockstep_timeout", "diagnostic_period"});
   NodeConfig config;
   config.scenario = readScenario(reader, parameters);
   config.publish_every = publishPeriod(reader, config.scenario.stepSize());
   config.frames = readFrames(reader);
   config.truth_odom = readTruthOdom(reader, config.truth_odom);
+  readMap(reader, config);
   config.real_time_factor = reader.numberOr(config.real_time_factor, "real_time_factor",
                                             {isRealTimeFactor, kRealTimeFactorRuleText});
   config.paused = switchOr(config.paused, reader, "paused");

@@ -49,7 +49,7 @@ void LaserModel::measure(const SensedInstant& instant, double* memory, double* s
     if (target.moving == body_) continue;
     const Pose X_WT = target.moving == RayTarget::kFixed
                           ? target.X_WT
-                          : poseOf(instant.bodies->of(static_cast<std::size_t>(target.moving)));
+                          : poseOf((*instant.bodies)[static_cast<std::size_t>(target.moving)]);
     castBeams(fan_, X_WS, target, X_WT, range_max_, faces_, sample);
   }
   addNoise(instant, memory, sample);

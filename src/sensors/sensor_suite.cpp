@@ -53,7 +53,7 @@ SensorSuite& SensorSuite::operator=(SensorSuite&&) noexcept = default;
 
 SensedInstant SensorSuite::instantOf(std::size_t vehicle, std::int64_t seed, Tick tick,
                                      const BodyStates& bodies) const {
-  const BodyState& body = bodies.of(vehicle);
+  const BodyState& body = bodies[vehicle];
   const Pose X_WB = poseOf(body);
   return {seed,      tick,
           X_WB.p_AB, orientationOf(body),

@@ -29,7 +29,7 @@ class TimeoutWatch {
     for (Watched& watched : engines_) {
       EngineTimeout& timeout = watched.timeout;
       const EngineState& state =
-          simulation_.state(timeout.vehicle).engines[static_cast<std::size_t>(timeout.engine)];
+          simulation_.state().engines[timeout.vehicle][static_cast<std::size_t>(timeout.engine)];
       const bool is_late = state.command_tick != EngineState::kNever &&
                            tick - state.command_tick >= watched.timeout_ticks;
       if (is_late && !watched.was_late && timeout.count++ == 0) {

@@ -14,8 +14,11 @@ std::vector<RayTarget> rayTargetsOf(const Scenario& scenario) {
   if (!scenario.world) return targets;
   const World world = worldOf(scenario);
   std::int32_t index = 0;
-  for (const WorldBody& body : world.bodies()) targets.emplace_back(body.hull, index++);
-  for (const WorldObstacle& obstacle : world.obstacles()) {
+  for (const WorldBody& body : world.scene().bodies()) {
+    if (body.hull) targets.emplace_back(*body.hull, index);
+    ++index;
+  }
+  for (const WorldObstacle& obstacle : world.scene().obstacles()) {
     targets.emplace_back(obstacle.hull, RayTarget::kFixed, obstacle.X_WO);
   }
   return targets;

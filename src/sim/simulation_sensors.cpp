@@ -7,38 +7,10 @@
 /// What a simulation does with sensors: it has them read its bodies, and hands their samples on.
 
 namespace hovercraft {
-namespace {
-
-/// The bodies of a state as sensors see them.
-class SensedStates : public BodyStates {
- public:
-  explicit SensedStates(const SimulationState& state) : state_(state) {}
-
-  const BodyState& of(std::size_t body) const override {
-    const std::size_t count = state_.vehicles.size();
-    return body < count ? state_.vehicles[body].body : state_.bodies[body - count];
-  }
-
- private:
-  const SimulationState& state_;
-};
-
-}  // namespace
-
-void Simulation::startSensors() {
-  if (!sensors_) return;
-  state_.sensors = sensors_->start(state_.seed, state_.tick, SensedStates(state_));
-}
-
-void Simulation::relocateSensors(std::size_t vehicle) {
-  if (!sensors_) return;
-  sensors_->relocate(vehicle, state_.seed, state_.tick, SensedStates(state_), state_.sensors);
-}
-
 void Simulation::readSensors() {
   {
     const FloatingPointEnvironment environment;
-    sensors_->sample(state_.seed, state_.tick, SensedStates(state_), state_.sensors);
+    sensors_->sample(state_.seed, state_.tick, state_.bodies, state_.sensors);
   }
   sensors_->deliver(state_.tick, state_.sensors, on_sample);
 }

@@ -111,15 +111,15 @@ EngineState parseEngine(const ConfigReader& reader, const EngineParameters& engi
   return state;
 }
 
-VehicleState parseVehicle(const ConfigReader& reader, const Scenario& scenario,
-                          const VehicleScenario& vehicle, Tick now) {
+void parseVehicle(const ConfigReader& reader, const Scenario& scenario,
+                  const VehicleScenario& vehicle, SimulationState& state) {
   reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
-  VehicleState state;
-  state.body = parseBodyState(reader.map("body"), scenario);
+  state.bodies.push_back(parseBodyState(reader.map("body"), scenario));
+  EngineStates engines;
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    state.engines[i] = parseEngine(reader.map(kEngineNames[i]), vehicle.engines[i], now);
+    engines[i] = parseEngine(reader.map(kEngineNames[i]), vehicle.engines[i], state.tick);
   }
-  return state;
+  state.engines.push_back(engines);
 }
 
 std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenario) {
@@ -207,15 +207,15 @@ SavedFeature parseFeature(const ConfigReader& reader, const ConvexPolyhedron& hu
 ContactMemory parseContact(const ConfigReader& reader, const World& world) {
   reader.allowOnly({"a", "b", "kind_a", "index_a", "kind_b", "index_b", "hint_a", "hint_b",
                     "resting", "points"});
-  const auto moving = static_cast<std::int32_t>(world.bodies().size());
-  const std::int32_t all = moving + static_cast<std::int32_t>(world.obstacles().size());
+  const auto moving = static_cast<std::int32_t>(world.scene().bodies().size());
+  const std::int32_t all = moving + static_cast<std::int32_t>(world.scene().obstacles().size());
   ContactMemory contact;
   contact.a = index(reader, "a", 0, moving);
   contact.b = index(reader, "b", contact.a + 1, all);
   const SavedFeature a =
-      parseFeature(reader, world.hullOf(contact.a), {"kind_a", "index_a", "hint_a"});
+      parseFeature(reader, world.scene().hullOf(contact.a), {"kind_a", "index_a", "hint_a"});
   const SavedFeature b =
-      parseFeature(reader, world.hullOf(contact.b), {"kind_b", "index_b", "hint_b"});
+      parseFeature(reader, world.scene().hullOf(contact.b), {"kind_b", "index_b", "hint_b"});
   contact.features = {true, a.feature, b.feature, {a.hint, b.hint}};
   contact.resting = reader.flagOr(false, "resting");
   if (!reader.has("points")) return contact;
@@ -261,8 +261,7 @@ SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
   requireCount(reader, "vehicles", scenario.vehicles.size());
   const ConfigReader vehicles = reader.map("vehicles");
   for (const VehicleScenario& vehicle : scenario.vehicles) {
-    state.vehicles.push_back(
-        parseVehicle(vehicles.map(vehicle.name), scenario, vehicle, state.tick));
+    parseVehicle(vehicles.map(vehicle.name), scenario, vehicle, state);
   }
   if (reader.has("wrenches")) {
     for (const ConfigReader& wrench : reader.list("wrenches")) {
@@ -298,7 +297,7 @@ void checkMotions(const ConfigReader& reader, const Simulation& simulation) {
   for (std::size_t i = 0; i < scenario.world->bodies.size(); ++i) {
     requireMotion(reader, "bodies." + scenario.world->bodies[i].name, simulation.bodyMotion(i));
   }
-  if (const auto overlap = simulation.world()->overlap(simulation.worldStates())) {
+  if (const auto overlap = simulation.world()->overlap(simulation.state().bodies)) {
     reader.fail("", fmt::format("{} and {} overlap by {:.3g} m: must be at most the tolerance",
                                 overlap->a, overlap->b, overlap->depth));
   }

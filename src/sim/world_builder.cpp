@@ -64,6 +64,37 @@ struct HullCorners {
   }
 };
 
+/// How the bodies of a world meet.
+WorldRules rulesOf(const WorldScenario& world) {
+  WorldRules rules;
+  rules.tolerance = world.tolerance;
+  rules.rest_speed = world.rest_speed;
+  const std::size_t count = world.materials.size();
+  rules.material_count = count;
+  rules.pairs.clear();
+  for (const MaterialScenario& a : world.materials) {
+    for (const MaterialScenario& b : world.materials) {
+      rules.pairs.push_back(combined(a.surface, b.surface));
+    }
+  }
+  for (const MaterialPairScenario& pair : world.material_pairs) {
+    rules.pairs[pair.first * count + pair.second] = pair.law;
+    rules.pairs[pair.second * count + pair.first] = pair.law;
+  }
+  return rules;
+}
+
+std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {
+  std::vector<WorldObstacle> obstacles;
+  for (const ObstacleScenario& obstacle : world.obstacles) {
+    const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
+    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
+    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
+                         static_cast<int>(obstacle.material)});
+  }
+  return obstacles;
+}
+
 std::vector<Vector3> placedPoints(std::vector<Vector3> points, const Vector3& p,
                                   const Vector3& rpy) {
   const Matrix3 R = rotationFromRpy(rpy);
@@ -103,7 +134,7 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
                                 ? Mobility::planar(body.mass, body.I_BBo_B)
                                 : Mobility::spatial(body.mass, body.I_BBo_B);
   return {mobility, EngineGeometry(vehicle.engines, body.p_HB), vehicle.drag,
-          body.mass * scenario.gravity, scenario.wind};
+          body.mass * scenario.gravity};
 }
 
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
@@ -119,39 +150,22 @@ BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
 
 World worldOf(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
-  const WorldScenario& world = *scenario.world;
-  WorldRules rules;
+  WorldRules rules = scenario.world ? rulesOf(*scenario.world) : WorldRules();
+  rules.bodies_meet = scenario.world.has_value();
   rules.integrator = scenario.integrator;
   rules.step = scenario.stepSize();
-  rules.tolerance = world.tolerance;
-  rules.rest_speed = world.rest_speed;
-  const std::size_t count = world.materials.size();
-  rules.material_count = count;
-  rules.pairs.clear();
-  for (const MaterialScenario& a : world.materials) {
-    for (const MaterialScenario& b : world.materials) {
-      rules.pairs.push_back(combined(a.surface, b.surface));
-    }
-  }
-  for (const MaterialPairScenario& pair : world.material_pairs) {
-    rules.pairs[pair.first * count + pair.second] = pair.law;
-    rules.pairs[pair.second * count + pair.first] = pair.law;
-  }
   std::vector<WorldBody> bodies;
-  for (const auto* list : {&scenario.vehicles, &world.bodies}) {
-    for (const VehicleScenario& body : *list) {
-      bodies.push_back(
-          {body.name, modelOf(scenario, body), hullOf(body), static_cast<int>(body.material)});
-    }
+  const auto add = [&](const VehicleScenario& body) {
+    bodies.push_back({body.name, modelOf(scenario, body),
+                      scenario.world ? std::optional(hullOf(body)) : std::nullopt,
+                      static_cast<int>(body.material)});
+  };
+  for (const VehicleScenario& vehicle : scenario.vehicles) add(vehicle);
+  if (scenario.world) {
+    for (const VehicleScenario& body : scenario.world->bodies) add(body);
   }
-  std::vector<WorldObstacle> obstacles;
-  for (const ObstacleScenario& obstacle : world.obstacles) {
-    const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
-    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
-    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
-                         static_cast<int>(obstacle.material)});
-  }
-  return {std::move(rules), std::move(bodies), std::move(obstacles)};
+  return {std::move(rules), std::move(bodies),
+          scenario.world ? obstaclesOf(*scenario.world) : std::vector<WorldObstacle>()};
 }
 
 }  // namespace hovercraft

@@ -150,11 +150,12 @@ void checkNames(const ConfigReader& reader, const Scenario& scenario) {
 
 void checkTolerance(const ConfigReader& reader, const World& world) {
   double size = 0.0;
-  for (const WorldBody& body : world.bodies()) size = std::max(size, body.hull.data().radius);
-  for (const WorldObstacle& obstacle : world.obstacles()) {
+  for (const WorldBody& body : world.scene().bodies())
+    size = std::max(size, body.hull->data().radius);
+  for (const WorldObstacle& obstacle : world.scene().obstacles()) {
     size = std::max(size, obstacle.hull.data().radius);
   }
-  if (world.rules().tolerance >= kLeastTolerance * size) return;
+  if (world.scene().rules().tolerance >= kLeastTolerance * size) return;
   reader.fail("tolerance", fmt::format("must be at least {:.3g} m, {:.0e} of the largest body",
                                        kLeastTolerance * size, kLeastTolerance));
 }
@@ -169,9 +170,10 @@ void checkStart(const ConfigReader& reader, const Scenario& scenario) {
     }
   }
   if (const auto overlap = world.overlap(states)) {
-    reader.fail("", fmt::format("{} and {} overlap at the start by {:.3g} m: must be at most the "
-                                "tolerance, {:.3g} m",
-                                overlap->a, overlap->b, overlap->depth, world.rules().tolerance));
+    reader.fail(
+        "", fmt::format("{} and {} overlap at the start by {:.3g} m: must be at most the "
+                        "tolerance, {:.3g} m",
+                        overlap->a, overlap->b, overlap->depth, world.scene().rules().tolerance));
   }
   world.partTouching(states);
   if (const auto squeezed = world.squeezed(states)) {

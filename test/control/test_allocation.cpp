@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/control/allocation.h"

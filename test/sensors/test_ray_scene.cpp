@@ -109,7 +109,7 @@ TEST(RayScene, AgreesWithAMarchAlongTheBeam) {
     return Vector3(r * unit(random), r * unit(random), r * unit(random));
   };
   int hits = 0;
-  for (int scene = 0; scene < 60; ++scene) {
+  for (int scene = 0; scene < 100; ++scene) {
     std::vector<Vector3> cloud;
     for (int i = 0; i < 12; ++i) cloud.push_back(point(1.0));
     const ConvexPolyhedron hull = convexHull(cloud, "cloud");
@@ -157,12 +157,12 @@ TEST(RayScene, ABeamAlongAFaceOutsideMisses) {
   EXPECT_EQ(under[0], 2.5);
 }
 
-/// A body at rest in the world, as the laser asks for it.
-struct StandingBodies : BodyStates {
-  BodyState own = RigidBodyState<Quaternion>();
-  BodyState other = RigidBodyState<Quaternion>();
-  const BodyState& of(std::size_t body) const override { return body == 0 ? own : other; }
-};
+/// The craft of the laser, and another body, at rest.
+BodyStates standingBodies(const Vector3& other = Vector3::Zero()) {
+  RigidBodyState<Quaternion> state;
+  state.p_WB = other;
+  return {RigidBodyState<Quaternion>(), state};
+}
 
 struct Scan {
   std::vector<double> ranges;
@@ -170,14 +170,14 @@ struct Scan {
 };
 
 Scan scanOf(const LaserParameters& laser, const std::vector<RayTarget>& targets,
-            const StandingBodies& bodies, Tick tick = 100) {
+            const BodyStates& bodies, Tick tick = 100) {
   SensorParameters parameters;
   parameters.name = "laser";
   parameters.period = 100;
   parameters.model = laser;
   const auto model = makeSensorModel(parameters, {"craft", 0, Vector3::Zero(), 0.001, &targets});
-  const Pose X_WB = poseOf(bodies.own);
-  const SensedInstant instant = {1,         tick, X_WB.p_AB, orientationOf(bodies.own),
+  const Pose X_WB = poseOf(bodies[0]);
+  const SensedInstant instant = {1,         tick, X_WB.p_AB, orientationOf(bodies[0]),
                                  X_WB.R_AB, {},   &bodies};
   Scan scan = {std::vector<double>(model->sampleSize()), std::vector<double>(model->memorySize())};
   model->start(instant, scan.memory.data());
@@ -194,17 +194,14 @@ LaserParameters aheadTo(double range_max, int beams = 1) {
 
 TEST(Laser, SeesOthersWhereTheyAreAndNotItsOwnCraft) {
   const ConvexPolyhedron cube = boxPolyhedron({1.0, 1.0, 1.0});
-  StandingBodies bodies;
-  std::get<RigidBodyState<Quaternion>>(bodies.other).p_WB = {4.0, 0.0, 0.0};
   const std::vector<RayTarget> targets = {{cube, 0}, {cube, 1}};
-  EXPECT_EQ(scanOf(aheadTo(10.0), targets, bodies).ranges[0], 3.5);
-  std::get<RigidBodyState<Quaternion>>(bodies.other).p_WB = {6.0, 0.0, 0.0};
-  EXPECT_EQ(scanOf(aheadTo(10.0), targets, bodies).ranges[0], 5.5);
+  EXPECT_EQ(scanOf(aheadTo(10.0), targets, standingBodies({4.0, 0.0, 0.0})).ranges[0], 3.5);
+  EXPECT_EQ(scanOf(aheadTo(10.0), targets, standingBodies({6.0, 0.0, 0.0})).ranges[0], 5.5);
 }
 
 TEST(Laser, BeyondItsRangeNothingReturns) {
   const std::vector<RayTarget> wall = {box({1.0, 1.0, 1.0}, poseAt({10.5, 0.0, 0.0}))};
-  const StandingBodies bodies;
+  const BodyStates bodies = standingBodies();
   EXPECT_EQ(scanOf(aheadTo(10.0), wall, bodies).ranges[0], 10.0);
   EXPECT_EQ(scanOf(aheadTo(9.999), wall, bodies).ranges[0], kNoReturn);
   EXPECT_EQ(scanOf(aheadTo(10.0), {}, bodies).ranges[0], kNoReturn);
@@ -217,7 +214,7 @@ TEST(Laser, EachBeamHasANoiseOfItsOwn) {
   laser.angle_max = 0.1;
   laser.range.gaussian_noise = 0.05;
   laser.range.offset = {0.3, 7.0, 7.0};
-  const StandingBodies bodies;
+  const BodyStates bodies = standingBodies();
   const auto ranges = scanOf(laser, room, bodies).ranges;
   double sum = 0.0;
   double squares = 0.0;
@@ -235,7 +232,7 @@ TEST(Laser, NoiseMakesNoNegativeRange) {
   const std::vector<RayTarget> wall = {box({1.0, 1.0, 1.0}, poseAt({0.51, 0.0, 0.0}))};
   LaserParameters laser = aheadTo(20.0);
   laser.range.gaussian_noise = 1.0;
-  const StandingBodies bodies;
+  const BodyStates bodies = standingBodies();
   int zeros = 0;
   for (Tick tick = 100; tick < 10000; tick += 100) {
     const double range = scanOf(laser, wall, bodies, tick).ranges[0];

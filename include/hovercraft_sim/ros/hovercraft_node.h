@@ -76,6 +76,7 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   void advertiseTransforms(ros::NodeHandle handle);
   Claims claims() const;
   void publishConstants();
+  void publishMap(ros::NodeHandle handle);
   void setRealTimeFactor(double real_time_factor);
   void restartPace();
   bool stands() const;
@@ -106,6 +107,7 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   std::vector<NewcomerPublisher<geometry_msgs::PoseStamped>> body_poses_;  // of each
   std::optional<SensorInterface> sensors_;
   ros::Publisher contacts_;
+  ros::Publisher map_;
   ros::Publisher scenario_, events_, telemetry_;
   NewcomerPublisher<tf2_msgs::TFMessage> transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "hovercraft_sim/math/export.h"
@@ -16,6 +17,8 @@ struct NodeConfig {
   hovercraft::Tick publish_every = 1;  // ticks from one published state to the next
   TfFrames frames;                     // parameters world_frame, tf_prefix
   std::string truth_odom = "odom";     // topic of the true odometry
+  std::optional<double> map_height;    // m: of the plane that `map` shows; none: no map
+  double map_resolution = 0.05;        // m
   double real_time_factor = 1.0;       // simulated per wall time; 0: as fast as it can
   bool paused = false;                 // at the start
   bool clock = false;                  // publish /clock and be the time source, from time 0

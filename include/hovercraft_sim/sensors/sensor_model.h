@@ -17,15 +17,7 @@
 namespace hovercraft {
 
 /// Where the moving bodies are: vehicles first, then loose bodies.
-class BodyStates {
- public:
-  BodyStates() = default;
-  BodyStates(const BodyStates&) = delete;
-  BodyStates& operator=(const BodyStates&) = delete;
-  virtual ~BodyStates() = default;
-
-  virtual const BodyState& of(std::size_t body) const = 0;
-};
+using BodyStates = std::vector<BodyState>;
 
 /// The craft of a sensor at one tick, and what is around it.
 struct SensedInstant {

@@ -10,7 +10,7 @@
 
 #include "hovercraft_sim/body/body_state.h"
 #include "hovercraft_sim/hovercraft/engines.h"
-#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sensors/sensor_suite.h"
@@ -19,12 +19,6 @@
 #include "hovercraft_sim/world/world.h"
 
 namespace hovercraft {
-
-/// Everything about one craft that determines its future.
-struct VehicleState {
-  BodyState body;
-  EngineStates engines;
-};
 
 /// A wrench that acts on one craft for some steps, besides engines, drag and weight.
 struct ExternalWrench {
@@ -41,9 +35,9 @@ struct ExternalWrench {
 struct SimulationState {
   Tick tick = 0;
   std::int64_t seed = 1;
-  std::vector<VehicleState> vehicles;    // in the order of the scenario
+  std::vector<BodyState> bodies;         // vehicles, then loose ones, in the scenario's order
+  std::vector<EngineStates> engines;     // of each vehicle
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
-  std::vector<BodyState> bodies;         // loose ones, in the order of the scenario
   std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
   std::vector<SensorState> sensors;      // of all craft, in the order of the scenario
   CommandLog commands;                   // that have not taken effect
@@ -131,14 +125,11 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// Simulated time at the current tick, ns.
   std::int64_t timeNs() const { return state_.tick * scenario_.step_ns; }
 
-  const VehicleState& state(std::size_t vehicle) const { return state_.vehicles[vehicle]; }
   Motion motion(std::size_t vehicle) const;
   /// Of a loose body.
   Motion bodyMotion(std::size_t body) const;
   /// Null if the scenario has no world.
-  const World* world() const { return world_ ? &*world_ : nullptr; }
-  /// Where every body of the world is, vehicles first.
-  std::vector<BodyState> worldStates() const;
+  const World* world() const { return scenario_.world ? &world_ : nullptr; }
   EngineReport engineReport(std::size_t vehicle, int engine) const;
 
   /// Hash of everything that determines the future of one craft, or of all: FNV-1a, 64 bits,
@@ -166,34 +157,27 @@ class HOVERCRAFT_PUBLIC Simulation {
 
  private:
   void applyDueCommands();
-  void stepVehicles();
-  bool stepVehicle(std::size_t vehicle);
-  void takeThrusts(std::size_t vehicle, const ThrustCourse& thrusts);
-  [[noreturn]] void failAsDiverged(const char* kind, const std::string& name) const;
   void endWrenches();
-  void stepWorld();
-  void startSensors();
-  void relocateSensors(std::size_t vehicle);
+  void prepareInputs();
+  void takeResult();
   void readSensors();
+  [[noreturn]] void failAsDiverged(std::size_t body) const;
   void sortRecords();
   ContactEvent eventOf(const ContactRecord& record) const;
+  std::size_t vehicleCount() const { return engine_dynamics_.size(); }
+  const HovercraftModel& modelOf(std::size_t body) const {
+    return world_.scene().bodies()[body].model;
+  }
   BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
                    const Mobility& mobility) const;
-  void partTouching(int body);
 
   Scenario scenario_;
-  double h_ = 0.0;  // s
-  std::vector<HovercraftModel> models_;
-  std::vector<EngineDynamics> engine_dynamics_;
+  World world_;
+  std::vector<EngineDynamics> engine_dynamics_;  // of each vehicle
   SimulationState state_;
-  std::optional<World> world_;
+  std::vector<StepInputs> inputs_;  // of each body, in the step that is made
   std::optional<SensorSuite> sensors_;
-  std::vector<VehicleState> before_;  // of a step of several craft without a world
-  // Of a step of a world, until all of it is known to be sound: vehicles, then loose bodies.
-  std::vector<BodyState> moving_;
-  std::vector<BodyDrive> drives_;
-  std::vector<ContactMemory> contacts_;
-  std::vector<ContactRecord> records_;
+  StepResult result_;  // of it, until all of it is known to be sound
 };
 
 }  // namespace hovercraft

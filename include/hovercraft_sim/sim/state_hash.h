@@ -34,10 +34,13 @@ class StateHash {
   void add(const Matrix3& R) {
     for (int column = 0; column < 3; ++column) add(Vector3(R.col(column)));
   }
-  /// Position, orientation, momenta; then of each engine: command, thrust, tick of the command.
-  void add(const VehicleState& state) {
-    add(state.body);
-    for (const EngineState& engine : state.engines) {
+  /// Position, orientation, momenta.
+  void add(const BodyState& state) {
+    std::visit([this](const auto& body) { addBody(body); }, state);
+  }
+  /// Of each engine: command, thrust, tick of the command.
+  void add(const EngineStates& engines) {
+    for (const EngineState& engine : engines) {
       add(engine.commanded);
       add(engine.thrust);
       add(engine.command_tick);
@@ -51,11 +54,6 @@ class StateHash {
     add(external.wrench.force);
     add(external.wrench.torque);
     add(external.end_tick);
-  }
-
-  /// A loose body: as the body of a vehicle.
-  void add(const BodyState& state) {
-    std::visit([this](const auto& body) { addBody(body); }, state);
   }
 
   /// Both bodies, features and hints, whether it rests; number of points, then point and force of

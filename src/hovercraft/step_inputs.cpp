@@ -1,4 +1,4 @@
-#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/hovercraft/step_inputs.h"
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 
@@ -6,15 +6,15 @@ namespace hovercraft {
 
 RigidBodyState<Quaternion> integrationStep(Integrator integrator,
                                            const RigidBodyState<Quaternion>& y,
-                                           const DrivenHovercraft& f, double h) {
+                                           const DrivenBody& f, double h) {
   const FloatingPointEnvironment environment;
-  return integrationStep<Quaternion, DrivenHovercraft>(integrator, y, f, h);
+  return integrationStep<Quaternion, DrivenBody>(integrator, y, f, h);
 }
 
 RigidBodyState<Matrix3> integrationStep(Integrator integrator, const RigidBodyState<Matrix3>& y,
-                                        const DrivenHovercraft& f, double h) {
+                                        const DrivenBody& f, double h) {
   const FloatingPointEnvironment environment;
-  return integrationStep<Matrix3, DrivenHovercraft>(integrator, y, f, h);
+  return integrationStep<Matrix3, DrivenBody>(integrator, y, f, h);
 }
 
 }  // namespace hovercraft
