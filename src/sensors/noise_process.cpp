@@ -11,7 +11,13 @@ namespace {
 // Tick 0 has no sample: its draws are those of the start.
 constexpr Tick kStart = 0;
 
-/// Six standard normal variates: three draws of two.
+/// The first three of the six standard normal variates of a tick.
+Vector3 firstNormals(const NoiseChannel& channel, Tick tick) {
+  const auto a = channel.normals(tick, 0);
+  return {a[0], a[1], channel.normal(tick, 1)};
+}
+
+/// All six: two of each draw.
 std::array<Vector3, 2> sixNormals(const NoiseChannel& channel, Tick tick) {
   const auto a = channel.normals(tick, 0);
   const auto b = channel.normals(tick, 1);
@@ -71,7 +77,9 @@ Vector3 NoiseProcess::measure(std::int64_t seed, Tick tick, const Vector3& truth
                               Memory& memory) const {
   Vector3 measured = gain_ * truth + (offset_ + memory.turn_on);
   if (white_ == 0.0 && kick_ == 0.0) return measured + memory.bias;
-  const auto [white, kick] = sixNormals(NoiseChannel(seed, stream_), tick);
+  const NoiseChannel channel(seed, stream_);
+  if (kick_ == 0.0) return measured + (memory.bias + white_ * firstNormals(channel, tick));
+  const auto [white, kick] = sixNormals(channel, tick);
   memory.bias = decay_ * memory.bias + kick_ * kick;
   return measured + (memory.bias + white_ * white);
 }

@@ -7,8 +7,10 @@ import tempfile
 import unittest
 
 import rosbag
+import rospkg
 import rospy
 import rostest
+import yaml
 from geometry_msgs.msg import Twist
 from hovercraft_sim.msg import AppliedCommand, EngineStatus, RunEvent, State
 from nav_msgs.msg import Odometry
@@ -68,6 +70,17 @@ class VelocityControllerTest(unittest.TestCase):
         # A command is on its way for some periods of the lockstep, more on a busy machine.
         self.assertLess(max(on), last + 1.5)
         self.assertEqual(self.engines[-1].rear.commanded, 0)
+
+    def test_the_configuration_for_robot_localization_has_its_shape(self):
+        """Its schema only: Debian has no robot_localization."""
+        with open(os.path.join(rospkg.RosPack().get_path('hovercraft_sim'), 'config', 'ekf.yaml')) as file:
+            keys = yaml.safe_load(file)
+        known = {'frequency', 'two_d_mode', 'publish_tf', 'map_frame', 'odom_frame', 'base_link_frame', 'world_frame', 'odom0',
+                 'odom0_config', 'imu0', 'imu0_config', 'imu0_remove_gravitational_acceleration'}
+        self.assertEqual(set(keys), known)
+        for name in ('odom0_config', 'imu0_config'):
+            self.assertEqual([type(flag) for flag in keys[name]], [bool] * 15, name)
+        self.assertEqual(keys['world_frame'], keys['odom_frame'])
 
     def test_the_bag_replays(self):
         with tempfile.TemporaryDirectory() as folder:

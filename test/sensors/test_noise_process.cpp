@@ -126,6 +126,22 @@ TEST(NoiseProcess, TheTurnOnBiasIsDrawnOnceInARun) {
   EXPECT_EQ(noise.variance(), 4.0);
 }
 
+// What is skipped without a bias must not change what is drawn.
+TEST(NoiseProcess, TheWhiteNoiseIsTheSameWithABiasBesideIt) {
+  NoiseParameters parameters;
+  parameters.noise_density = 0.5;
+  const NoiseProcess alone(parameters, kPeriod, "craft/imu/gyroscope");
+  parameters.random_walk = 0.25;
+  const NoiseProcess both(parameters, kPeriod, "craft/imu/gyroscope");
+  NoiseProcess::Memory of_alone = alone.start(1);
+  NoiseProcess::Memory of_both = both.start(1);
+  for (Tick tick = 1; tick < 20; ++tick) {
+    const Vector3 white = alone.measure(1, tick, Vector3::Zero(), of_alone);
+    const Vector3 all = both.measure(1, tick, Vector3::Zero(), of_both);
+    EXPECT_LT((all - of_both.bias - white).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
 TEST(NoiseProcess, AnotherSeedOrChannelIsAnotherNoise) {
   NoiseParameters parameters;
   parameters.noise_density = 1.0;
