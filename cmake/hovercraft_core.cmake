@@ -58,13 +58,17 @@ set(exported_symbols ${CMAKE_CURRENT_LIST_DIR}/exported_symbols.map)
 function(hovercraft_shared_library name)
   add_library(${name}_objects OBJECT ${${name}_sources})
   target_link_libraries(${name}_objects ${ARGN})
-  set(kind SHARED)
   if(HOVERCRAFT_SANITIZE)
-    set(kind STATIC)  # the runtime of the sanitizers in a program is hidden from what is shared
+    # The runtime of the sanitizers, in the program, is hidden from what is shared.
+    add_library(${name} STATIC $<TARGET_OBJECTS:${name}_objects>)
+  else()
+    add_library(${name} SHARED $<TARGET_OBJECTS:${name}_objects>)
+    # Of a program the script would hide operator new from the C++ library.
+    target_link_options(${name} PRIVATE -Wl,-Bsymbolic-functions -Wl,--version-script=${exported_symbols})
+    set_target_properties(${name} PROPERTIES LINK_DEPENDS ${exported_symbols})
   endif()
-  add_library(${name} ${kind} $<TARGET_OBJECTS:${name}_objects>)
-  target_link_libraries(${name} ${ARGN} -Wl,-Bsymbolic-functions -Wl,--version-script=${exported_symbols})
-  set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX LINK_DEPENDS ${exported_symbols})
+  target_link_libraries(${name} ${ARGN})
+  set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
 hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt ${qhull_library})

@@ -60,9 +60,12 @@ RULES = (
     Rule(r'roscore .*', until='/rosout_agg', stays=True),
     Rule(r'markers_node .*', beside=(ROSCORE,), until='/hovercraft_markers/markers', stays=True),
     Rule(r'rviz .*', skip='it opens a window'),
-    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --contacts FILE\.csv', skip=NAMED),
+    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --contacts FILE\.csv|simulate --hold|rosparam delete /use_sim_time',
+         skip=NAMED),
+    Rule(r'roslaunch hovercraft_sim sim\.launch set:=.*', beside=(), until='/hovercraft_sim/scenario'),
     # CONTRIBUTING.md
     Rule(r'cmake .* build/mine .*|build/mine/.*', skip='scripts/test builds and runs the same in build_release'),
+    Rule(r'scripts/(fuzz|mutate) .*', skip=NAMED),
     Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
     # doc/sensors.md, doc/helm.md

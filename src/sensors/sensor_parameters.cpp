@@ -36,12 +36,22 @@ struct FieldNames {
   }
 };
 
-/// The channels of each kind, in the order of SensorKind.
-const Names kChannels[] = {{"gyroscope", "accelerometer"},
-                           {"position", "velocity"},
-                           {"linear", "angular"},
-                           {"field"},
-                           {"range", "beam"}};
+/// The channels of each kind.
+Names channelsOf(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::kImu:
+      return {"gyroscope", "accelerometer"};
+    case SensorKind::kGnss:
+      return {"position", "velocity"};
+    case SensorKind::kOdometry:
+      return {"linear", "angular"};
+    case SensorKind::kMagnetometer:
+      return {"field"};
+    case SensorKind::kLaser:
+      return {"range", "beam"};
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -52,7 +62,7 @@ std::vector<std::string> sampleFields(const SensorParameters& sensor) {
 std::vector<std::string> channelNames(const std::string& vehicle, const SensorParameters& sensor) {
   const std::string source = vehicle + "/" + sensor.name + "/";
   Names names;
-  for (const std::string& channel : kChannels[sensor.model.index()]) {
+  for (const std::string& channel : channelsOf(sensor.kind())) {
     names.push_back(source + channel);
   }
   names.push_back(source + "drop");

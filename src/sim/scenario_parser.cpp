@@ -223,11 +223,11 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   Scenario scenario;
   scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.integrator), "integrator", kIntegratorNames));
+      static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));
   scenario.orientation = static_cast<OrientationKind>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.orientation), "orientation", kOrientationNames));
+      static_cast<std::size_t>(scenario.orientation), "orientation", orientationNames()));
   scenario.model = static_cast<BodyModel>(
-      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", kModelNames));
+      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", modelNames()));
   scenario.gravity = reader.vectorOr(Vector3::Zero(), "gravity");
   scenario.wind = reader.vectorOr(Vector3::Zero(), "wind");
   scenario.seed = reader.wholeNumberOr(scenario.seed, "seed");

@@ -100,9 +100,9 @@ std::string toYaml(const Scenario& scenario) {
       "step_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\ngravity: {}\nwind: {}\n"
       "seed: {}\nvehicles:\n",
       yamlNumber(scenario.stepSize()),
-      kIntegratorNames[static_cast<std::size_t>(scenario.integrator)],
-      kOrientationNames[static_cast<std::size_t>(scenario.orientation)],
-      kModelNames[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),
+      integratorNames()[static_cast<std::size_t>(scenario.integrator)],
+      orientationNames()[static_cast<std::size_t>(scenario.orientation)],
+      modelNames()[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),
       yamlVector(scenario.wind), scenario.seed);
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     yaml += vehicleText(vehicle, scenario, true);

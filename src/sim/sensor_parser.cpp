@@ -213,7 +213,7 @@ SensorParameters parseSensor(const std::string& name, const ConfigReader& reader
     if (name == frame) reader.fail("", "the name of a sensor is its frame: that one is taken");
   }
   reader.text("kind");  // must be there
-  const auto kind = static_cast<SensorKind>(reader.choiceOr(0, "kind", kSensorKindNames));
+  const auto kind = static_cast<SensorKind>(reader.choiceOr(0, "kind", sensorKindNames()));
   reader.allowOnly(keysOf(kind));
   SensorParameters sensor;
   sensor.name = name;
@@ -241,7 +241,7 @@ SensorParameters parseSensor(const std::string& name, const ConfigReader& reader
 
 void parseTf(const ConfigReader& reader, VehicleScenario& vehicle) {
   vehicle.tf = static_cast<TfSource>(
-      reader.choiceOr(static_cast<std::size_t>(vehicle.tf), "tf", kTfSourceNames));
+      reader.choiceOr(static_cast<std::size_t>(vehicle.tf), "tf", tfSourceNames()));
   const bool has_odometry =
       std::any_of(vehicle.sensors.begin(), vehicle.sensors.end(),
                   [](const auto& sensor) { return sensor.kind() == SensorKind::kOdometry; });
@@ -282,7 +282,7 @@ std::string sensorText(const SensorParameters& sensor) {
   const SensorKind kind = sensor.kind();
   std::string text =
       fmt::format("      {}: {{kind: {}, rate: {}, latency: {}, drop: {}", yamlText(sensor.name),
-                  kSensorKindNames[sensor.model.index()], yamlNumber(sensor.rate),
+                  sensorKindNames()[sensor.model.index()], yamlNumber(sensor.rate),
                   yamlNumber(toSeconds(sensor.latency_ns)), yamlNumber(sensor.drop));
   if (kind != SensorKind::kOdometry) text += ", position: " + yamlVector(sensor.p_HS);
   if (kind != SensorKind::kOdometry && kind != SensorKind::kGnss) {
@@ -317,7 +317,7 @@ void parseSensors(const ConfigReader& top, Scenario& scenario) {
 std::string sensorsYaml(const VehicleScenario& vehicle) {
   if (vehicle.sensors.empty() && vehicle.tf == TfSource::kTruth) return "";
   std::string yaml =
-      fmt::format("    tf: {}\n", kTfSourceNames[static_cast<std::size_t>(vehicle.tf)]);
+      fmt::format("    tf: {}\n", tfSourceNames()[static_cast<std::size_t>(vehicle.tf)]);
   if (vehicle.sensors.empty()) return yaml;
   yaml += "    sensors:\n";
   for (const SensorParameters& sensor : vehicle.sensors) yaml += sensorText(sensor);

@@ -51,7 +51,7 @@ std::string vehicleText(const std::string& name, const BodyState& body,
 std::string wrenchText(const Scenario& scenario, const ExternalWrench& external) {
   return fmt::format("  - {{vehicle: {}, frame: {}, force: {}, torque: {}, end_tick: {}}}\n",
                      yamlText(scenario.vehicles[external.vehicle].name),
-                     kFrameNames[static_cast<std::size_t>(external.frame)],
+                     frameNames()[static_cast<std::size_t>(external.frame)],
                      yamlVector(external.wrench.force), yamlVector(external.wrench.torque),
                      external.end_tick);
 }

@@ -164,7 +164,7 @@ ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario)
   ExternalWrench external;
   external.vehicle = parseVehicleName(reader, scenario);
   reader.text("frame");  // it must be there
-  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", kFrameNames));
+  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", frameNames()));
   external.wrench = {reader.vector("force"), reader.vector("torque")};
   external.end_tick = wholeNumber(reader, "end_tick", 0, std::numeric_limits<std::int64_t>::max());
   return external;

@@ -65,9 +65,9 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
 
  private:
   template <class Message>
-  NewcomerPublisher<Message> advertise(ros::NodeHandle& handle, const char* topic,
-                                       const Message& (VehicleMessages::*message)() const,
-                                       bool latched);
+  HOVERCRAFT_HIDDEN NewcomerPublisher<Message> advertise(
+      ros::NodeHandle& handle, const char* topic,
+      const Message& (VehicleMessages::*message)() const, bool latched);
   void subscribe(ros::NodeHandle& handle);
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
   void take(const std::optional<hovercraft::Command>& command, const std::string& topic,
