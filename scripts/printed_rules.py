@@ -17,7 +17,7 @@ import re
 
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
-DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md')
+DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/sensors.md', 'doc/helm.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -68,6 +68,11 @@ RULES = (
     Rule(r'scripts/(fuzz|mutate) .*', skip=NAMED),
     Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
+    # doc/sensors.md, doc/helm.md
+    Rule(r'replay senses\.bag', says='identical: .* messages of sensors'),
+    Rule(r'roslaunch hovercraft_sim sim\.launch (truth_odom|map):=.*', beside=(), until='/hovercraft_sim/scenario'),
+    Rule(r'roslaunch hovercraft_sim autonomy\.launch', beside=(), until='rostopic echo -n 1 --filter "m.rear > 0.1" /hovercraft/thrust'),
+    Rule(r'rosrun hovercraft_sim (teleop|joy_teleop)\.py.*', skip='it wants a person at a keyboard or a joystick'),
     # doc/time.md
     Rule(r'rosrun dynamic_reconfigure dynparam .*', beside=(SIMULATION,)),
     Rule(r'rosservice call .*', beside=(SIMULATION,), says='success: True'),

@@ -23,6 +23,7 @@
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/sensors_csv.h"
 #include "hovercraft_sim/sim/states_csv.h"
 
 namespace hovercraft_ros {
@@ -90,6 +91,9 @@ class TimedSink : public hovercraft::StateSink {
   }
   void contact(const hovercraft::ContactEvent& event) override {
     timed([&] { next_->contact(event); });
+  }
+  void sample(const hovercraft::SensorSample& sample) override {
+    timed([&] { next_->sample(sample); });
   }
   void close() override {
     timed([&] { next_->close(); });
@@ -188,6 +192,13 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
   if (!request.cushion.empty()) {
     output = std::make_unique<hovercraft::CushionCsvWriter>(request.cushion, scenario,
                                                             std::move(output));
+  }
+  if (!request.sensors.empty()) {
+    output = std::make_unique<hovercraft::SensorsCsvWriter>(
+        request.sensors, scenario,
+        std::vector<std::string>{request.scenario, request.commands, request.output,
+                                 request.contacts, request.cushion},
+        std::move(output));
   }
   hovercraft::Simulation simulation(scenario);
 

@@ -42,7 +42,7 @@ VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun&
   ros::NodeHandle own(handle, messages_.name());
   pose_ = advertise(own, kPoseTopic, &VehicleMessages::pose, latched);
   twist_ = advertise(own, kTwistTopic, &VehicleMessages::twist, latched);
-  odom_ = advertise(own, kOdomTopic, &VehicleMessages::odom, latched);
+  odom_ = advertise(own, owner_.truth_odom.c_str(), &VehicleMessages::odom, latched);
   engines_ = advertise(own, kEnginesTopic, &VehicleMessages::engines, latched);
   state_ = advertise(own, kStateTopic, &VehicleMessages::state, latched);
   if (messages_.hasCushion()) {

@@ -28,6 +28,17 @@ const std::vector<std::string>& modelNames() {
   return names;
 }
 
+const std::vector<std::string>& tfSourceNames() {
+  static const std::vector<std::string> names = {"truth", "odometry", "none"};
+  return names;
+}
+
+const std::vector<std::string>& sensorKindNames() {
+  static const std::vector<std::string> names = {"imu", "gnss", "odometry", "magnetometer",
+                                                 "laser"};
+  return names;
+}
+
 const std::vector<std::string>& frameNames() {
   static const std::vector<std::string> names = {"world", "body"};
   return names;

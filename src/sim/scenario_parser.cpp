@@ -16,23 +16,12 @@
 #include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
+#include "hovercraft_sim/sim/sensor_parser.h"
+#include "hovercraft_sim/sim/step_time.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
 namespace hovercraft {
 namespace {
-
-std::int64_t nanoseconds(const ConfigReader& reader, const char* key, double seconds) {
-  const double exact = seconds * static_cast<double>(kNanosecondsPerSecond);
-  if (!(exact <= kMaxNanoseconds)) {
-    reader.fail(key,
-                fmt::format("must be at most {:.0f} s", kMaxNanoseconds / kNanosecondsPerSecond));
-  }
-  const std::int64_t whole = std::llround(exact);
-  if (std::abs(exact - static_cast<double>(whole)) > kNanosecondSlack * std::abs(exact)) {
-    reader.fail(key, "must be a whole number of nanoseconds");
-  }
-  return whole;
-}
 
 Matrix3 parseInertia(const ConfigReader& vehicle) {
   const ConfigReader reader = vehicle.map("inertia");
@@ -167,8 +156,8 @@ EngineParameters parseEngine(const ConfigReader& reader) {
   engine.min_thrust = reader.number("min_thrust", kNotPositive);
   engine.max_thrust = reader.number("max_thrust", kNotNegative);
   engine.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
-  engine.timeout_ns = nanoseconds(reader, "timeout",
-                                  reader.numberOr(kDefaultCommandTimeout, "timeout", kNotNegative));
+  engine.timeout_ns = nanosecondsOf(
+      reader, "timeout", reader.numberOr(kDefaultCommandTimeout, "timeout", kNotNegative));
   return engine;
 }
 
@@ -216,7 +205,7 @@ namespace {
 VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
                              const ScenarioSource& source, BodyModel model) {
   reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "hull",
-                    "material", "visual", "initial", "cushion"});
+                    "material", "visual", "initial", "cushion", "sensors", "tf"});
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   const ConfigReader engines = reader.map("engines");
   engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
@@ -235,7 +224,7 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   reader.allowOnly({"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed",
                     "vehicles", "world", "ground"});
   Scenario scenario;
-  scenario.step_ns = nanoseconds(reader, "step_size", reader.number("step_size", kPositive));
+  scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
       static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));
   scenario.orientation = static_cast<OrientationKind>(reader.choiceOr(
@@ -252,6 +241,7 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   scenario.ground = parseGround(reader, source);
   parseWorld(reader, source, scenario);
   checkCushions(reader, source, scenario);
+  parseSensors(reader, scenario);
   return scenario;
 }
 

@@ -12,6 +12,7 @@
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/sensor_parser.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
 namespace hovercraft {
@@ -79,6 +80,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
                         bool has_engines) {
   std::string yaml = fmt::format("  {}:\n{}", yamlText(vehicle.name), massText(vehicle));
   if (has_engines) yaml += engineText(vehicle);
+  if (has_engines) yaml += sensorsYaml(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
   yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";

@@ -10,6 +10,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/cushion_builder.h"
+#include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -59,6 +60,7 @@ Simulation::Simulation(Scenario scenario)
   environment_.ground = ground_.get();
   environment_.bare_ground = bare_ground_.get();
   for (StepInputs& inputs : inputs_) inputs.environment = environment_;
+  sensors_ = sensorSuiteOf(scenario_);
   reset(scenario_.seed);
 }
 
@@ -72,14 +74,18 @@ void Simulation::reset(std::int64_t seed) {
     state_.bodies.push_back(initialState(scenario_, body, mobility));
   };
   for (const VehicleScenario& vehicle : scenario_.vehicles) start(vehicle);
-  if (!scenario_.world) return;
-  for (const VehicleScenario& body : scenario_.world->bodies) start(body);
-  world_.partTouching(state_.bodies);
+  if (scenario_.world) {
+    for (const VehicleScenario& body : scenario_.world->bodies) start(body);
+    world_.partTouching(state_.bodies);
+  }
+  if (sensors_) state_.sensors = sensors_->start(seed, state_.tick, state_.bodies);
 }
 
 void Simulation::restore(const SimulationState& state) {
   demand(state.bodies.size() == inputs_.size() && state.engines.size() == vehicleCount(),
          "a state must come from the same scenario");
+  demand(!sensors_ || sensors_->fits(state.sensors, state.tick),
+         "what sensors remember must come from the same scenario");
   state_ = state;
 }
 
@@ -88,15 +94,18 @@ void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quate
   const FloatingPointEnvironment environment;
   demand(vehicle < vehicleCount(), "a motion must name a vehicle of the scenario");
   state_.bodies[vehicle] = placed(p_WB, q_WB, twist, modelOf(vehicle).mobility);
-  if (!scenario_.world) return;
-  const auto index = static_cast<std::int32_t>(vehicle);
-  auto& contacts = state_.contacts;
-  contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
-                                [index](const ContactMemory& contact) {
-                                  return contact.a == index || contact.b == index;
-                                }),
-                 contacts.end());
-  world_.partTouching(state_.bodies, index);
+  if (scenario_.world) {
+    const auto index = static_cast<std::int32_t>(vehicle);
+    auto& contacts = state_.contacts;
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                  [index](const ContactMemory& contact) {
+                                    return contact.a == index || contact.b == index;
+                                  }),
+                   contacts.end());
+    world_.partTouching(state_.bodies, index);
+  }
+  if (!sensors_) return;
+  sensors_->relocate(vehicle, state_.seed, state_.tick, state_.bodies, state_.sensors);
 }
 
 BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
@@ -192,9 +201,11 @@ void Simulation::step() {
     takeResult();
   }
   ++state_.tick;
-  if (!on_contact) return;
-  sortRecords();
-  for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
+  if (on_contact) {
+    sortRecords();
+    for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
+  }
+  if (sensors_) readSensors();
 }
 
 /// Makes what the step ended with the state, if all of it is sound.

@@ -8,6 +8,7 @@
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
@@ -99,6 +100,7 @@ std::string toSnapshot(const Simulation& simulation) {
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
   for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
+  yaml += sensorStatesText(simulation);
   const std::vector<Command> commands = state.commands.waiting();
   if (!commands.empty()) yaml += "commands:\n";
   for (const Command& command : commands) yaml += commandText(scenario, command);

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
+#include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 /// A snapshot is as foreign as a scenario: it may be any file, or come in a bag. Nothing of it
@@ -247,13 +248,13 @@ std::vector<ContactMemory> parseContacts(const ConfigReader& reader, const World
   return contacts;
 }
 
-void requireCount(const ConfigReader& reader, const char* key, std::size_t count) {
+void requireCount(const ConfigReader& reader, const std::string& key, std::size_t count) {
   if (reader.map(key).maps().size() == count) return;
   reader.fail(key, "must hold those of the scenario and no other");
 }
 
 SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
-                           const World* world) {
+                           const Simulation& started) {
   SimulationState state;
   state.tick = wholeNumber(reader, "tick", 0, latestTick(scenario));
   state.seed = reader.wholeNumberOr(scenario.seed, "seed");
@@ -276,7 +277,8 @@ SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
   } else if (reader.has("bodies")) {
     reader.fail("bodies", "there are none in the scenario");
   }
-  state.contacts = parseContacts(reader, world);
+  state.contacts = parseContacts(reader, started.world());
+  state.sensors = parseSensorStates(reader, state.tick, started);
   state.commands = parseCommands(reader, scenario, state.tick);
   return state;
 }
@@ -332,17 +334,18 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
   const FloatingPointEnvironment environment;
   const ConfigReader reader(snapshotTree(text, source), source, "", false);
   reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",
-                    "commands", "scenario"});
+                    "sensor_hash", "sensors", "commands", "scenario"});
   if (!isTextOf(scenario, reader.text("scenario"), source)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }
   Simulation check(scenario);
-  SimulationState state = parseState(reader, scenario, check.world());
+  SimulationState state = parseState(reader, scenario, check);
   check.restore(state);
   const std::string hash = fmt::format("{:016x}", check.hash());
   if (reader.text("hash") != hash) {
     reader.fail("hash", fmt::format("must be that of the state, {}: it was changed", hash));
   }
+  checkSensorHash(reader, check);
   checkMotions(reader, check);
   return state;
 }

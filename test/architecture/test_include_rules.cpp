@@ -28,9 +28,9 @@ Names operator+(Names a, const Names& b) {
 }
 
 const std::map<std::string, Rule>& rules() {
-  static const Names messages = {"geometry_msgs/",  "nav_msgs/",          "rosgraph_msgs/",
-                                 "std_msgs/",       "std_srvs/",          "tf2_msgs/",
-                                 "hovercraft_sim/", "visualization_msgs/"};
+  static const Names messages = {"geometry_msgs/", "nav_msgs/",       "rosgraph_msgs/",
+                                 "sensor_msgs/",   "std_msgs/",       "std_srvs/",
+                                 "tf2_msgs/",      "hovercraft_sim/", "visualization_msgs/"};
   static const Names of_ros = messages +
                               Names{"Eigen/", "fmt/", "gtest/", "ros/", "rosbag/", "tf2_ros/"} +
                               Names{"XmlRpcValue.h", "bzlib.h", "boost/make_shared.hpp",
@@ -47,10 +47,14 @@ const std::map<std::string, Rule>& rules() {
       {"contact", {{"math", "geometry", "body", "collision"}, {"Eigen/"}}},
       {"world",
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
+      {"control", {{"math"}, {}}},
+      {"sensors", {{"math", "geometry", "body"}, {}}},
       {"sim",
-       {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact", "world"},
+       {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact", "control",
+         "sensors", "world"},
         {"fmt/", "yaml-cpp/", "png.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
-      {"ros", {{"math", "geometry", "body", "cushion", "hovercraft", "sim"}, of_ros}},
+      {"ros",
+       {{"math", "geometry", "body", "cushion", "hovercraft", "control", "sensors", "sim"}, of_ros}},
       {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
       {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
@@ -173,8 +177,8 @@ TEST(IncludeRules, RosInTheCoreIsRefused) {
        {"<ros/ros.h>", "<rosbag/bag.h>", "<tf2/LinearMath/Quaternion.h>", "<tf2_ros/buffer.h>",
         "<geometry_msgs/Pose.h>", "<hovercraft_sim/State.h>", "<XmlRpcValue.h>",
         "\"hovercraft_sim/ros/conversions.h\"", "\"ros/ros.h\""}) {
-    for (const char* module :
-         {"math", "geometry", "body", "hovercraft", "collision", "contact", "world", "sim"}) {
+    for (const char* module : {"math", "geometry", "body", "hovercraft", "collision", "contact",
+                               "sensors", "world", "sim"}) {
       EXPECT_EQ(violationsOf(module, "#include " + std::string(header)).size(), 1U)
           << module << " " << header;
     }

@@ -36,6 +36,8 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
     /// The run stands, and publishes nothing by itself: who subscribes then is given the present
     /// state, he alone.
     std::function<bool()> stands;
+    /// The topic of the true odometry.
+    std::string truth_odom = kOdomTopic;
   };
 
   /// @param handle of the namespace that the craft's own namespace lies in.

@@ -48,6 +48,10 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   VehicleMessages(const hovercraft::Scenario& scenario, std::size_t vehicle,
                   TfFrames frames = TfFrames());
 
+  /// Whether tf has the craft's true pose.
+  bool hasTransform() const { return tf() == hovercraft::TfSource::kTruth; }
+  hovercraft::TfSource tf() const { return description_.tf; }
+
   /// Fills every message from the simulation as it stands.
   void fill(const hovercraft::Simulation& simulation, const RunStamp& place);
 

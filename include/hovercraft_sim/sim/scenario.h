@@ -17,11 +17,15 @@
 #include "hovercraft_sim/hovercraft/drag.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sensors/sensor_parameters.h"
 
 namespace hovercraft {
 
 enum class OrientationKind { kQuaternion, kMatrix };
 enum class BodyModel { kPlanar, kSpatial };
+/// Which transform of a craft's base_link goes into tf: from the world by its true pose, from its
+/// odometry frame by its first odometry sensor, or none.
+enum class TfSource { kTruth, kOdometry, kNone };
 
 /// The solids that a craft may be composed of; lengths in m.
 struct BoxShape {
@@ -84,7 +88,9 @@ struct VehicleScenario {
   std::optional<HullScenario>
       hull;  // none: the convex hull of the parts, in a scenario with a world or a ground
   std::optional<VisualScenario> visual;
-  std::size_t material = 0;                // index into WorldScenario::materials
+  std::size_t material = 0;               // index into WorldScenario::materials
+  std::vector<SensorParameters> sensors;  // by name
+  TfSource tf = TfSource::kTruth;
   Vector3 initial_p_WB = Vector3::Zero();  // m
   Vector3 initial_rpy = Vector3::Zero();   // rad
   Vector3 initial_v_WB = Vector3::Zero();  // m/s

@@ -12,6 +12,9 @@ namespace hovercraft {
 HOVERCRAFT_PUBLIC const std::vector<std::string>& integratorNames();
 HOVERCRAFT_PUBLIC const std::vector<std::string>& orientationNames();
 HOVERCRAFT_PUBLIC const std::vector<std::string>& modelNames();
+/// Those of TfSource and of SensorKind.
+HOVERCRAFT_PUBLIC const std::vector<std::string>& tfSourceNames();
+HOVERCRAFT_PUBLIC const std::vector<std::string>& sensorKindNames();
 /// The words for the frames of an external wrench, in the order of ExternalWrench::Frame.
 HOVERCRAFT_PUBLIC const std::vector<std::string>& frameNames();
 

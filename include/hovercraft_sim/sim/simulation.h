@@ -14,6 +14,7 @@
 #include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sensors/sensor_suite.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/world/world.h"
@@ -39,6 +40,7 @@ struct SimulationState {
   std::vector<EngineStates> engines;     // of each vehicle
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
   std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
+  std::vector<SensorState> sensors;      // of all craft, in the order of the scenario
   CommandLog commands;                   // that have not taken effect
 };
 
@@ -147,16 +149,30 @@ class HOVERCRAFT_PUBLIC Simulation {
   std::uint64_t hash(std::size_t vehicle) const;
   std::uint64_t hash() const;
 
+  /// Hash of what determines the samples to come of one craft's sensors, or of all: memories, and
+  /// samples on their way. 0 without sensors. Sensors act on no body, and hash() does not know
+  /// them.
+  std::uint64_t sensorHash(std::size_t vehicle) const;
+  std::uint64_t sensorHash() const;
+  /// The next tick after this one at which a sample may be delivered; the greatest there is without
+  /// sensors.
+  Tick nextSampleTick() const;
+  /// Null if no craft has sensors.
+  const SensorSuite* sensors() const { return sensors_ ? &*sensors_ : nullptr; }
+
   /// Called for every command when it takes effect; not set: nothing is called.
   std::function<void(const Command&)> on_applied;
   /// Called for every contact of a step, in the order of time, when the step is done.
   std::function<void(const ContactEvent&)> on_contact;
+  /// Called for every sample that is due, when the step is done and its contacts have been told.
+  SampleSink on_sample;
 
  private:
   void applyDueCommands();
   void endWrenches();
   void prepareInputs();
   void takeResult();
+  void readSensors();
   [[noreturn]] void failAsDiverged(std::size_t body) const;
   void sortRecords();
   ContactEvent eventOf(const ContactRecord& record) const;
@@ -175,7 +191,8 @@ class HOVERCRAFT_PUBLIC Simulation {
   std::vector<EngineDynamics> engine_dynamics_;  // of each vehicle
   SimulationState state_;
   std::vector<StepInputs> inputs_;  // of each body, in the step that is made
-  StepResult result_;               // of it, until all of it is known to be sound
+  std::optional<SensorSuite> sensors_;
+  StepResult result_;  // of it, until all of it is known to be sound
 };
 
 }  // namespace hovercraft
