@@ -2,6 +2,7 @@ import { reportOf, type Body, type PackedReport, type Panel, type Report } from 
 import { element } from './dom';
 import { fileName } from './format';
 import { listenToKeys } from './keys';
+import { Pace } from './pace';
 import { PathView } from './path_view';
 import { PlotBoard, type PlotRequest } from './plots';
 import { Player } from './player';
@@ -95,6 +96,7 @@ function show(report: Report): void {
   const player = new Player(Math.max(1e-3, ...report.runs.map((run) => run.end)));
   const timeline = new Timeline(first, player);
   const { view, root } = sceneOf(report, player);
+  const path = new PathView(report, player);
   const board = new PlotBoard(player);
   const bodies = first?.bodies ?? [];
   const choose = (body: Body | undefined): void => {
@@ -106,7 +108,7 @@ function show(report: Report): void {
     element(
       'main',
       {},
-      element('div', { class: 'stage' }, root, new PathView(report, player).root),
+      element('div', { class: 'stage' }, root, path.root),
       ...(bodies.length > 1 ? [choiceOf(bodies, choose)] : []),
       board.root,
       tablesOf(report, player),
@@ -115,11 +117,22 @@ function show(report: Report): void {
   );
   choose(bodies[0]);
   listenToKeys(player, timeline, first?.contacts ?? []);
+  playOn(player, view, [path, board, timeline]);
+}
+
+/** Draws what has changed, picture by picture. */
+function playOn(player: Player, view: SceneView | undefined, others: { draw: () => void }[]): void {
+  const pace = new Pace();
   let before = performance.now();
   const frame = (now: number): void => {
-    player.advance(Math.min(0.25, (now - before) / 1000));
+    const seconds = (now - before) / 1000;
     before = now;
+    pace.next(seconds);
+    player.advance(Math.min(0.25, Math.max(0, seconds)));
     view?.draw();
+    if (!player.playing || pace.hasTime) {
+      for (const other of others) other.draw();
+    }
     requestAnimationFrame(frame);
   };
   requestAnimationFrame(frame);

@@ -48,6 +48,7 @@ export class PathView {
   private readonly tracks: Track[];
   private view: View = { scale: 1, x: 0, y: 0, width: 1, height: 1 };
   private theme: Theme = currentTheme();
+  private isStale = true;
 
   constructor(
     private readonly report: Report,
@@ -63,13 +64,18 @@ export class PathView {
       })),
     );
     this.root.append(this.still, this.moving);
-    new ResizeObserver(() => { this.draw(); }).observe(this.root);
-    onThemeChange(() => { this.draw(); });
-    player.onTime(() => { this.drawMoving(); });
+    new ResizeObserver(() => { this.drawAll(); }).observe(this.root);
+    onThemeChange(() => { this.drawAll(); });
+    player.onTime(() => { this.isStale = true; });
     this.moving.addEventListener('click', (event) => { this.seekNear(event.offsetX, event.offsetY); });
   }
 
-  private draw(): void {
+  /** Draws where everything is, if that has changed. */
+  draw(): void {
+    if (this.isStale) this.drawMoving();
+  }
+
+  private drawAll(): void {
     this.theme = currentTheme();
     this.fit();
     const context = fitCanvas(this.still);
@@ -208,6 +214,7 @@ export class PathView {
   }
 
   private drawMoving(): void {
+    this.isStale = false;
     const context = fitCanvas(this.moving);
     if (!context) return;
     for (const { body, colour, isOther, corners } of this.tracks) {

@@ -3,6 +3,7 @@ import type { Panel } from './data';
 import { element } from './dom';
 import { numberText, timeText } from './format';
 import { tableOf, type Table } from './overlay';
+import { drawSteps } from './steps';
 import type { Player } from './player';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
@@ -43,12 +44,35 @@ function seriesOf(table: Table, theme: Theme): uPlot.Series[] {
     label: `${label}${demand ? ' demanded' : ''}${hasOther ? (isOther ? ' B' : ' A') : ''}`,
     stroke: seriesColour(theme, colours[i] ?? 0),
     width: demand ? 1 : isOther ? 1.25 : 1.75,
-    dash: demand ? [2, 3] : isOther ? [7, 4] : [],
     spanGaps: hasOther,
     points: { show: table.times.length < 30 },
-    ...(demand && uPlot.paths.stepped ? { paths: uPlot.paths.stepped({ align: 1 }) } : {}),
+    ...(demand ? { paths: stepsOf } : {}),
     value: (_: uPlot, value: number | null) => (value === null ? '–' : valueText(value, sizes[i] ?? 0)),
   }));
+}
+
+/** Demands hold until the next one. */
+function stepsOf(plot: uPlot, series: number, first: number, last: number): uPlot.Series.Paths {
+  const stroke = new Path2D();
+  drawSteps(stroke, plot.data[0], (plot.data[series] ?? []) as ArrayLike<number | null>, {
+    first,
+    last,
+    x: (time) => plot.valToPos(time, 'x', true),
+    y: (value) => plot.valToPos(value, 'y', true),
+  });
+  return { stroke, fill: null, clip: null, band: null, flags: 0 };
+}
+
+/** Dashes of a line that goes up and down in each column of pixels would be neither seen nor drawn in time. */
+function setDashes(plot: uPlot, table: Table): void {
+  const { min = 0, max = 0 } = plot.scales['x'] ?? {};
+  const whole = (table.times[table.times.length - 1] ?? 0) - (table.times[0] ?? 0);
+  const shown = whole > 0 ? (table.times.length * (max - min)) / whole : 0;
+  const isDense = shown > 4 * plot.bbox.width;
+  table.curves.forEach(({ demand, isOther }, i) => {
+    const series = plot.series[i + 1];
+    if (series) series.dash = isDense ? [] : demand ? [2, 3] : isOther ? [7, 4] : [];
+  });
 }
 
 /** Bars at the upper edge: in the colour of its engine while it was saturated, grey while it was timed out. */
@@ -74,6 +98,7 @@ class Plot {
   private readonly place = element('div', { class: 'plot' });
   private plot: uPlot | undefined;
   private isSeen = false;
+  private isInSight = false;
 
   constructor(
     private readonly request: PlotRequest,
@@ -97,9 +122,14 @@ class Plot {
     });
   }
 
-  /** It came into sight. */
-  see(): void {
-    if (this.isSeen) return;
+  /** It came into sight, or went out of it. */
+  see(isInSight = true): void {
+    this.isInSight = isInSight;
+    if (!isInSight) return;
+    if (this.isSeen) {
+      this.showTime(this.board.player.shown);
+      return;
+    }
     this.isSeen = true;
     this.build();
   }
@@ -111,7 +141,6 @@ class Plot {
     const table = tableOf(this.request.panel, this.request.other);
     const data = [table.times, ...table.curves.map(({ values }) => values)] as unknown as uPlot.AlignedData;
     this.plot = new uPlot(this.optionsOf(table, theme), data, this.place);
-    this.fit();
     this.showTime(this.board.player.shown);
   }
 
@@ -124,7 +153,7 @@ class Plot {
     };
     const { board } = this;
     return {
-      width: 300,
+      width: Math.max(1, this.place.clientWidth),
       height: HEIGHT,
       legend: { live: true },
       cursor: { drag: { x: true, y: false }, points: { size: 5 }, y: false },
@@ -135,6 +164,7 @@ class Plot {
       ],
       series: [{ label: 't', value: (_: uPlot, value: number | null) => (value === null ? '–' : timeText(value)) }, ...seriesOf(table, theme)],
       hooks: {
+        drawClear: [(plot) => { setDashes(plot, table); }],
         draw: [(plot) => { drawBands(plot, this.request.panel, theme); }],
         setScale: [(plot, key) => { if (key === 'x') board.zoom(plot.scales['x']?.min ?? 0, plot.scales['x']?.max ?? 0, this); }],
         ready: [(plot) => { this.listen(plot); }],
@@ -162,13 +192,13 @@ class Plot {
 
   showTime(time: number): void {
     const { plot } = this;
-    if (!plot) return;
+    if (!plot || !this.isInSight) return;
     plot.setCursor({ left: plot.valToPos(time, 'x'), top: 0 }, false);
   }
 
   fit(): void {
     const width = this.place.clientWidth;
-    if (this.plot && width > 0) this.plot.setSize({ width, height: HEIGHT });
+    if (this.plot && width > 0 && width !== this.plot.width) this.plot.setSize({ width, height: HEIGHT });
   }
 }
 
@@ -178,19 +208,18 @@ export class PlotBoard {
   range: [number, number];
   private plots: Plot[] = [];
   private isZooming = false;
+  private isStale = false;
   private readonly seen = new Map<Element, Plot>();
   private readonly sight = new IntersectionObserver(
     (entries) => {
-      for (const { isIntersecting, target } of entries) {
-        if (isIntersecting) this.seen.get(target)?.see();
-      }
+      for (const { isIntersecting, target } of entries) this.seen.get(target)?.see(isIntersecting);
     },
     { rootMargin: '300px' },
   );
 
   constructor(readonly player: Player) {
     this.range = [0, player.end];
-    player.onTime((time) => { for (const plot of this.plots) plot.showTime(time); });
+    player.onTime(() => { this.isStale = true; });
     onThemeChange(() => { for (const plot of this.plots) plot.build(); });
     new ResizeObserver(() => { for (const plot of this.plots) plot.fit(); }).observe(this.root);
     window.addEventListener('beforeprint', () => { for (const plot of this.plots) plot.see(); });
@@ -206,6 +235,13 @@ export class PlotBoard {
       this.seen.set(plot.root, plot);
       this.sight.observe(plot.root);
     }
+  }
+
+  /** Shows the time in every plot, if that has changed. */
+  draw(): void {
+    if (!this.isStale) return;
+    this.isStale = false;
+    for (const plot of this.plots) plot.showTime(this.player.shown);
   }
 
   /** One plot was zoomed: all follow. */

@@ -65,6 +65,16 @@ function facesOf({ vertices = [], faces = [] }: Shape): BufferGeometry {
   return geometry;
 }
 
+/** Whether there is no graphics hardware, so that every pixel costs the processor's time. */
+function drawsInSoftware(): boolean {
+  const context = document.createElement('canvas').getContext('webgl');
+  const names = context?.getExtension('WEBGL_debug_renderer_info');
+  if (!context || !names) return false;
+  const renderer = String(context.getParameter(names.UNMASKED_RENDERER_WEBGL));
+  context.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software/i.test(renderer);
+}
+
 interface Thrust {
   arrow: Mesh;
   full: number;
@@ -91,6 +101,7 @@ export class SceneView {
   private readonly controls: OrbitControls;
   private readonly actors: Actor[] = [];
   private readonly contact = new Group();
+  private readonly isSoftware: boolean;
   private readonly size: number; // m, of the greatest craft
   private followed: Actor | undefined;
   private isStale = true;
@@ -100,7 +111,8 @@ export class SceneView {
     private readonly report: Report,
     private readonly player: Player,
   ) {
-    this.renderer = new WebGLRenderer({ antialias: true, powerPreference: 'high-performance' });
+    this.isSoftware = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ antialias: !this.isSoftware, powerPreference: 'high-performance' });
     this.root.append(this.renderer.domElement);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
@@ -284,7 +296,7 @@ export class SceneView {
   private resize(): void {
     const width = this.root.clientWidth || 1;
     const height = this.root.clientHeight || 1;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, this.isSoftware ? 1 : 2));
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();

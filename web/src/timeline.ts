@@ -13,6 +13,7 @@ export class Timeline {
   private readonly slider = element('input', { type: 'range', min: '0', step: 'any', 'aria-label': 'time' });
   private readonly clock = element('output', { class: 'clock' });
   private readonly speed = element('select', { 'aria-label': 'speed', title: 'Speed (+ and \u2212)' });
+  private isStale = false;
   private readonly marks = element('canvas', { class: 'marks', 'aria-hidden': 'true' });
 
   constructor(
@@ -33,12 +34,19 @@ export class Timeline {
     this.button.addEventListener('click', () => { player.toggle(); });
     this.slider.addEventListener('input', () => { player.seek(Number(this.slider.value)); });
     this.speed.addEventListener('change', () => { player.setSpeed(Number(this.speed.value)); });
-    player.onTime((time) => { this.showTime(time); });
+    player.onTime(() => { this.isStale = true; });
     player.onChange(() => { this.showState(); });
     new ResizeObserver(() => { this.drawMarks(); }).observe(this.marks);
     onThemeChange(() => { this.drawMarks(); });
     this.showTime(0);
     this.showState();
+  }
+
+  /** Shows the time, if it has changed. */
+  draw(): void {
+    if (!this.isStale) return;
+    this.isStale = false;
+    this.showTime(this.player.shown);
   }
 
   /** The next faster or slower speed. */
