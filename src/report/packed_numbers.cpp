@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "hovercraft_sim/report/run_data.h"
+
 namespace hovercraft_ros {
 namespace {
 
-/// Nothing that is drawn is beyond; a range of such values is a double, too.
-constexpr double kGreatest = 1e300;
-
+/// The range of such values is a double, too.
 bool isDrawn(double value) {
-  return std::abs(value) <= kGreatest;
+  return std::abs(value) <= kGreatestDrawn;
 }
 
 }  // namespace

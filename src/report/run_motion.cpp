@@ -151,7 +151,8 @@ RunMotion motionOf(const BodyTopics& topics, const Vector3& p_HB, std::int64_t z
     Vector3 position = at(positions, i);
     Quaternion orientation = at(orientations, i);
     const double length = norm(orientation);
-    if (!position.allFinite() || !std::isfinite(length)) continue;
+    const bool is_drawn = position.cwiseAbs().maxCoeff() <= kFarthestDrawn;
+    if (!position.allFinite() || !is_drawn || !std::isfinite(length)) continue;
     // A position without an orientation is still a way.
     orientation = length > 0.0 ? normalized(orientation) : Quaternion::identity();
     if (samples == topics.state) position -= rotate(orientation, p_HB);

@@ -19,7 +19,7 @@ struct ReportRequest {
 
 /// Makes the page of a bag, or of two, and whatever else was asked for; says on `terminal` what it
 /// could not read.
-/// @returns one line that says what was made.
+/// @returns numbers of the run, a line each, and what was made.
 /// @throws std::invalid_argument for whatever in the request or the bags is bad.
 HOVERCRAFT_PUBLIC std::string makeReport(const ReportRequest& request, std::ostream& terminal);
 

@@ -15,6 +15,10 @@
 /// bag has states, else from its first pose.
 namespace hovercraft_ros {
 
+/// Nothing is drawn beyond: a value of a curve, and a position in m.
+constexpr double kGreatestDrawn = 1e300;
+constexpr double kFarthestDrawn = 1e9;
+
 /// One curve of a panel.
 struct RunCurve {
   std::string label;

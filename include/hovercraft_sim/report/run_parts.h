@@ -25,7 +25,8 @@ struct BodyTopics {
 std::vector<BodyTopics> bodiesIn(const RecordedTopics& recorded,
                                  const hovercraft::Scenario* scenario);
 
-/// Where base_link was: from pose, else odom, else state. Samples that are not finite are left out.
+/// Where base_link was: from pose, else odom, else state. Samples that are not
+/// finite, or farther away than kFarthestDrawn, are left out.
 /// @param p_HB centre of mass in base_link, m. @param zero_ns ROS time of time 0.
 RunMotion motionOf(const BodyTopics& topics, const hovercraft::Vector3& p_HB, std::int64_t zero_ns);
 
