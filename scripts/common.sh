@@ -45,19 +45,25 @@ system_family() {
   esac
 }
 
-# The packages for one purpose: core (without ROS), core_test, build (and run), test, lint, demo, rviz.
+# The packages for one purpose: core (without ROS), core_test, build (and run), test, lint, demo, papers (plot_run.py), web, rviz.
 packages_for() {
   local common
   case "$1" in
     core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libpng-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
-    build) common="$(packages_for core) libboost-program-options-dev" ;;
+    build) common="$(packages_for core) libboost-program-options-dev zlib1g-dev" ;;
     fast) common='ccache ninja-build' ;;
     test) common="$(packages_for clang) $(packages_for fast) libbenchmark-dev libgtest-dev pkg-config" ;;
     # The versions that decide; clang-tidy 22 takes half the time of 14 (scripts/clang_tidy.py).
     lint) common='clang-format-14 clang-tidy-22 catkin-lint' ;;
     core_test) common='libgtest-dev' ;;
-    demo) common='python3-matplotlib' ;;
+    demo) common='' ;;
+    papers) common='python3-matplotlib' ;;
+    # What makes and tests the front end of pages (scripts/check_page). A node from elsewhere brings its own npm.
+    web)
+      common='nodejs chromium'
+      command -v npm > /dev/null || common+=' npm'
+      ;;
     rviz) common='' ;;
     *) fail "no packages are listed for '$1'" ;;
   esac
@@ -141,8 +147,8 @@ explain_unknown_system() {
   fi
   cat >&2 << 'TEXT'
 This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install these by hand, then run this again:
-  a C++17 compiler, make, CMake 3.16, Python 3 with matplotlib
-  Boost (program_options), Eigen 3.3, fmt, libpng, qhull, yaml-cpp (with their headers)
+  a C++17 compiler, make, CMake 3.16, Python 3 (with matplotlib for plot_run.py)
+  Boost (program_options), Eigen 3.3, fmt, libpng, qhull, yaml-cpp, zlib (with their headers)
   ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, sensor_msgs, std_msgs, std_srvs, rosgraph_msgs,
   visualization_msgs, diagnostic_updater, dynamic_reconfigure, message_generation, roslaunch, rosservice, rosbash, rosout; for the
   tests also rostest, rostopic, rosnode, rosmsg, GoogleTest, Google Benchmark, clang with its sanitizers' runtime;

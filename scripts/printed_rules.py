@@ -17,7 +17,8 @@ import re
 
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
-DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/sensors.md', 'doc/helm.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md')
+DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md', 'doc/craft.md', 'doc/contact.md', 'doc/collision.md',
+             'doc/physics.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -83,4 +84,7 @@ RULES = (
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
     Rule(r'scripts/check_example build_release', skip=SCRIPTS_TEST),
+    # doc/report.md
+    Rule(r'xdg-open .*', skip='it opens a window'),
+    Rule(r'cd web && npm ci && npm run build', skip='scripts/check_page does so'),
 )
