@@ -51,6 +51,8 @@ std::vector<Command> scheduledCommands(const hovercraft::Scenario& scenario,
             fmt::format("engines = {}: must be 1 to 7", wanted.engines));
     require(std::isfinite(wanted.rear) && std::isfinite(wanted.left) && std::isfinite(wanted.right),
             "a thrust must be finite");
+    require(wanted.ids.empty() && wanted.values.empty(),
+            "ids, values: must be empty: the craft has no actuators but its engines");
     commands.push_back(toCommand(wanted, vehicle));
   }
   return commands;

@@ -64,6 +64,11 @@ boost::shared_ptr<const AppliedCommand> readAppliedCommand(
   place.require(
       std::isfinite(message->rear) && std::isfinite(message->left) && std::isfinite(message->right),
       "a thrust must be finite");
+  place.require(message->ids.size() == message->values.size(),
+                fmt::format("ids and values: must be as many ({} and {} are there)",
+                            message->ids.size(), message->values.size()));
+  place.require(message->ids.empty(),
+                "ids: must be empty: the craft has no actuators but its engines");
   return message;
 }
 

@@ -43,9 +43,16 @@ class FieldComparison {
     add(field, a.y, b.y);
     add(field, a.z, b.z);
   }
-  void addHash(std::uint64_t recorded, std::uint64_t replayed) {
+  void add(const char* field, const std::vector<double>& a, const std::vector<double>& b) {
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) add(field, a[i], b[i]);
+    if (field_ != nullptr || a.size() == b.size()) return;
+    field_ = field;
+    recorded_ = fmt::format("{} numbers", a.size());
+    replayed_ = fmt::format("{} numbers", b.size());
+  }
+  void addHash(const char* field, std::uint64_t recorded, std::uint64_t replayed) {
     if (field_ != nullptr || recorded == replayed) return;
-    field_ = "hash";
+    field_ = field;
     recorded_ = fmt::format("{:016x}", recorded);
     replayed_ = fmt::format("{:016x}", replayed);
   }
@@ -80,7 +87,10 @@ std::optional<ReplayDifference> difference(const Recording::RecordedState& recor
     fields.add("thrust", state.thrust[i], replayed.thrust[i]);
   }
   fields.add("energy", state.energy, replayed.energy);
-  fields.addHash(state.hash, replayed.hash);
+  fields.add("actuators", state.actuators, replayed.actuators);
+  fields.add("extra", state.extra, replayed.extra);
+  fields.addHash("sensor_hash", state.sensor_hash, replayed.sensor_hash);
+  fields.addHash("hash", state.hash, replayed.hash);
   return fields.result(recorded.time, vehicle);
 }
 

@@ -18,6 +18,7 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/sensor_parser.h"
 #include "hovercraft_sim/sim/step_time.h"
+#include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
 namespace hovercraft {
@@ -216,14 +217,24 @@ VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader
   return vehicle;
 }
 
+/// A text that toYaml() wrote says by which equations its bits were computed.
+void checkPhysicsVersion(const ConfigReader& reader) {
+  if (!reader.has("physics_version")) return;
+  if (reader.wholeNumberOr(0, "physics_version") == kPhysicsVersion) return;
+  reader.fail("physics_version", fmt::format("must be {}, that of this build: with another one the "
+                                             "same scenario gives other bits",
+                                             kPhysicsVersion));
+}
+
 }  // namespace
 
 Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
-  reader.allowOnly({"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed",
-                    "vehicles", "world", "ground"});
+  reader.allowOnly({"physics_version", "step_size", "integrator", "orientation", "model", "gravity",
+                    "wind", "seed", "vehicles", "world", "ground"});
   Scenario scenario;
+  checkPhysicsVersion(reader);
   scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
       static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));

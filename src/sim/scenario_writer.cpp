@@ -13,6 +13,7 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/sensor_parser.h"
+#include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
 namespace hovercraft {
@@ -100,9 +101,9 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
 std::string toYaml(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   std::string yaml = fmt::format(
-      "step_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\ngravity: {}\nwind: {}\n"
-      "seed: {}\nvehicles:\n",
-      yamlNumber(scenario.stepSize()),
+      "physics_version: {}\nstep_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\n"
+      "gravity: {}\nwind: {}\nseed: {}\nvehicles:\n",
+      kPhysicsVersion, yamlNumber(scenario.stepSize()),
       integratorNames()[static_cast<std::size_t>(scenario.integrator)],
       orientationNames()[static_cast<std::size_t>(scenario.orientation)],
       modelNames()[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),

@@ -9,6 +9,7 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
+#include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
@@ -85,8 +86,9 @@ std::string toSnapshot(const Simulation& simulation) {
   const FloatingPointEnvironment environment;
   const Scenario& scenario = simulation.scenario();
   const SimulationState& state = simulation.state();
-  std::string yaml = fmt::format("tick: {}\nseed: {}\nhash: '{:016x}'\nvehicles:\n", state.tick,
-                                 state.seed, simulation.hash());
+  std::string yaml = fmt::format(
+      "format: {}\nphysics_version: {}\ntick: {}\nseed: {}\nhash: '{:016x}'\nvehicles:\n",
+      kSnapshotFormat, kPhysicsVersion, state.tick, state.seed, simulation.hash());
   const std::size_t vehicle_count = scenario.vehicles.size();
   for (std::size_t i = 0; i < vehicle_count; ++i) {
     yaml += vehicleText(scenario.vehicles[i].name, state.bodies[i], state.engines[i]);

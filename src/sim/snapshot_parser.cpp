@@ -12,6 +12,7 @@
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
+#include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 /// A snapshot is as foreign as a scenario: it may be any file, or come in a bag. Nothing of it
@@ -305,8 +306,10 @@ void checkMotions(const ConfigReader& reader, const Simulation& simulation) {
 
 /// @throws std::invalid_argument without a word of the text.
 ConfigNode snapshotTree(const std::string& text, const std::string& source) {
-  const std::string first_key = "tick: ";
-  if (text.compare(0, first_key.size(), first_key) != 0) {
+  const std::string first_key = "format: ";
+  const std::string first_key_of_format_1 = "tick: ";
+  if (text.compare(0, first_key.size(), first_key) != 0 &&
+      text.compare(0, first_key_of_format_1.size(), first_key_of_format_1) != 0) {
     throw std::invalid_argument(source + ": it is no snapshot");
   }
   try {
@@ -314,6 +317,16 @@ ConfigNode snapshotTree(const std::string& text, const std::string& source) {
   } catch (const std::invalid_argument&) {
     throw std::invalid_argument(source + ": it is not the YAML of a snapshot: it was changed");
   }
+}
+
+/// A snapshot of format 1 says neither, and is of physics version 1.
+void checkVersions(const ConfigReader& reader) {
+  if (reader.has("format")) wholeNumber(reader, "format", kSnapshotFormat, kSnapshotFormat);
+  const std::int64_t physics = reader.wholeNumberOr(1, "physics_version");
+  if (physics == kPhysicsVersion) return;
+  reader.fail("physics_version", fmt::format("must be {}, that of this build: the run would go on "
+                                             "with other bits",
+                                             kPhysicsVersion));
 }
 
 /// Another version may have written the text with other digits or quotes.
@@ -333,8 +346,9 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
                               const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(snapshotTree(text, source), source, "", false);
-  reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",
-                    "sensor_hash", "sensors", "commands", "scenario"});
+  reader.allowOnly({"format", "physics_version", "tick", "seed", "hash", "vehicles", "wrenches",
+                    "bodies", "contacts", "sensor_hash", "sensors", "commands", "scenario"});
+  checkVersions(reader);
   if (!isTextOf(scenario, reader.text("scenario"), source)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }

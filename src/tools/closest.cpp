@@ -9,6 +9,7 @@
 
 #include "hovercraft_sim/sim/closest_report.h"
 #include "hovercraft_sim/sim/mesh_scale.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
@@ -21,7 +22,7 @@ int run(int argc, char** argv) {
   options::options_description visible(
       "closest A B [--pose-a x y z qx qy qz qw] [--pose-b ...]: closest features of two convex "
       "meshes (OBJ, STL; m)");
-  visible.add_options()("help", "this text")(
+  visible.add_options()("help", "this text")("version", "of the package, and of the physics")(
       "pose-a", options::value(&request.pose_a)->multitoken(), "pose of A in the world, identity")(
       "pose-b", options::value(&request.pose_b)->multitoken(), "pose of B in the world, identity")(
       "scale", options::value(&scale)->multitoken(),
@@ -43,6 +44,10 @@ int run(int argc, char** argv) {
   options::notify(arguments);
   if (arguments.count("help") != 0) {
     std::cout << visible;
+    return 0;
+  }
+  if (arguments.count("version") != 0) {
+    std::cout << hovercraft::versionText("closest") << '\n';
     return 0;
   }
   if (!scale.empty()) request.scale = hovercraft::takeScale(scale, meshes);

@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/ros/trajectory_file.h"
 #include "hovercraft_sim/sim/output_file.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
@@ -19,7 +20,7 @@ struct Request {
   hovercraft::CompareOptions options;
 };
 
-/// @returns false if only the help was asked for.
+/// @returns false if only the help or the version was asked for.
 bool parse(int argc, char** argv, Request& request) {
   bool common = false;
   bool interpolate = false;
@@ -40,6 +41,7 @@ bool parse(int argc, char** argv, Request& request) {
   add("vehicle", po::value(&request.vehicle), "only this one");
   add("errors", po::value(&request.errors), "write the errors over time as CSV; needs one vehicle");
   add("help,h", "this text");
+  add("version", "of the package, and of the physics");
   po::positional_options_description positions;
   positions.add("a", 1).add("b", 1);
   po::variables_map values;
@@ -50,6 +52,10 @@ bool parse(int argc, char** argv, Request& request) {
                  "Compares two trajectories. Exit status 0 if they agree: within the tolerances "
                  "that are\ngiven, or to the last bit if none is.\n\n"
               << options;
+    return false;
+  }
+  if (values.count("version") > 0) {
+    std::cout << hovercraft::versionText("compare") << '\n';
     return false;
   }
   po::notify(values);

@@ -8,6 +8,7 @@
 #include "hovercraft_sim/ros/simulate.h"
 #include "hovercraft_sim/sim/mass_report.h"
 #include "hovercraft_sim/sim/mesh_scale.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
@@ -36,6 +37,7 @@ po::options_description options() {
   add("vehicle", po::value<std::string>()->default_value("", "all"), "of a scenario");
   add("json,j", po::bool_switch(), "one JSON object instead of text, numbers to the last bit");
   add("help,h", "this text");
+  add("version", "of the package, and of the physics");
   return options;
 }
 
@@ -66,6 +68,10 @@ int main(int argc, char** argv) {
               values);
     if (values.count("help") > 0) {
       std::cout << kUsage << options();
+      return 0;
+    }
+    if (values.count("version") > 0) {
+      std::cout << hovercraft::versionText("mass_properties") << '\n';
       return 0;
     }
     po::notify(values);

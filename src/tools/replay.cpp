@@ -4,6 +4,8 @@
 #include <exception>
 #include <iostream>
 
+#include "hovercraft_sim/sim/version.h"
+
 int main(int argc, char** argv) {
   namespace po = boost::program_options;
   try {
@@ -16,6 +18,7 @@ int main(int argc, char** argv) {
         "KEY.PATH=VALUE: change the scenario first, such as vehicles.hovercraft.mass=6; several "
         "with ; between them");
     add("help,h", "this text");
+    add("version", "of the package, and of the physics");
     po::positional_options_description positions;
     positions.add("bag", 1);
     po::variables_map values;
@@ -27,6 +30,10 @@ int main(int argc, char** argv) {
              "Runs again what a bag recorded and compares every state bit for bit.\n"
              "Exit status: 0 identical, 1 different or bad input, 2 not all can be checked.\n\n"
           << options;
+      return 0;
+    }
+    if (values.count("version") > 0) {
+      std::cout << hovercraft::versionText("replay") << '\n';
       return 0;
     }
     po::notify(values);

@@ -5,6 +5,8 @@
 #include <iostream>
 #include <unistd.h>
 
+#include "hovercraft_sim/sim/version.h"
+
 namespace {
 
 namespace po = boost::program_options;
@@ -31,6 +33,7 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
       "put out every N-th tick");
   add("hold", po::bool_switch(&request.hold), "commands hold for ever: no engine times out");
   add("help,h", "this text");
+  add("version", "of the package, and of the physics");
   return options;
 }
 
@@ -50,6 +53,10 @@ int main(int argc, char** argv) {
                    "...] --output FILE\n"
                    "Runs a scenario as fast as it goes and writes the states of its vehicles.\n\n"
                 << options;
+      return 0;
+    }
+    if (values.count("version") > 0) {
+      std::cout << hovercraft::versionText("simulate") << '\n';
       return 0;
     }
     po::notify(values);

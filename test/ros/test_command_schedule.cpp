@@ -101,6 +101,8 @@ TEST(CommandSchedule, RefusesWhatCannotActAndNamesTheCommand) {
             "commands[0]: engines = 0: must be 1 to 7");
   EXPECT_EQ(refusalOf([](AppliedCommand& command) { command.engines = 8; }),
             "commands[0]: engines = 8: must be 1 to 7");
+  EXPECT_EQ(refusalOf([](AppliedCommand& command) { command.ids = {3}; }),
+            "commands[0]: ids, values: must be empty: the craft has no actuators but its engines");
   EXPECT_EQ(refusalOf([](AppliedCommand& command) { command.left = kNan; }),
             "commands[0]: a thrust must be finite");
 }

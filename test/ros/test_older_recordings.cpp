@@ -1,11 +1,22 @@
+#include <cstdlib>
+#include <filesystem>
+#include <set>
 #include <string>
 #include <yaml-cpp/yaml.h>
 
 #include <gtest/gtest.h>
 
+#include <hovercraft_sim/AppliedCommand.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include "hovercraft_sim/ros/commands_bag.h"
+#include "hovercraft_sim/ros/recording_reader.h"
 #include "hovercraft_sim/ros/replay.h"
+#include "hovercraft_sim/ros/trajectory_file.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
+#include "../support/files.h"
 #include "../support/scenarios.h"
 
 /// What earlier versions recorded still reads, and is flown again to the last bit
@@ -21,6 +32,45 @@ TEST(OlderRecordings, OfEachFormatReplayIdentically) {
     std::string verdict;
     EXPECT_EQ(replayBag({kFolder + name + ".bag", "", {}}, verdict), 0) << name << ": " << verdict;
     EXPECT_NE(verdict.find("identical: "), std::string::npos) << verdict;
+  }
+}
+
+// The commands of an older bag drive a run, and its states are a trajectory.
+TEST(OlderRecordings, OfEachFormatGiveCommandsAndTrajectories) {
+  for (const char* name : {"format_1_contact", "format_1_matrix"}) {
+    const std::string bag = kFolder + name + ".bag";
+    const Recording recording = readRecording(bag);
+    ASSERT_FALSE(recording.commands.empty());
+    BagCommandSource source(bag, recording.scenario);
+    const auto first = source.next();
+    ASSERT_TRUE(first) << name;
+    EXPECT_EQ(first->tick, recording.commands.front().command.tick) << name;
+    EXPECT_EQ(readTrajectories(bag).size(), 2U) << name;
+  }
+}
+
+// The rules that the package exports: for programs that know the definitions of today only.
+TEST(OlderRecordings, RosbagFixMakesThemRecordingsOfToday) {
+  const hovercraft::testing::TestFolder folder;
+  const auto devel = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "../..";
+  for (const char* name : {"format_1_contact", "format_1_matrix"}) {
+    const std::string fixed = folder.file(std::string(name) + ".bag");
+    const std::string command = "bash -c '. " + devel.string() + "/setup.bash && rosbag fix " +
+                                kFolder + name + ".bag " + fixed +
+                                " migration/format_1.bmr > /dev/null'";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    std::set<std::string> sums;
+    {
+      const rosbag::Bag bag(fixed);
+      for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
+        sums.insert(connection->md5sum);
+      }
+    }
+    EXPECT_EQ(sums.count(ros::message_traits::MD5Sum<hovercraft_sim::AppliedCommand>::value()), 1U);
+    EXPECT_EQ(sums.count(ros::message_traits::MD5Sum<hovercraft_sim::RunEvent>::value()), 1U);
+    EXPECT_EQ(sums.count(ros::message_traits::MD5Sum<hovercraft_sim::State>::value()), 1U);
+    std::string verdict;
+    EXPECT_EQ(replayBag({fixed, "", {}}, verdict), 0) << name << ": " << verdict;
   }
 }
 

@@ -150,6 +150,13 @@ TEST_F(RecordedInput, ACommandIsCheckedByTopicTimeAndRule) {
       {[](AppliedCommand& command) { command.tick = 1ULL << 63; },
        "tick = 9223372036854775808: must fit 63 bits"},
       {[](AppliedCommand& command) { command.engines = 8; }, "engines = 8: must be 1 to 7"},
+      {[](AppliedCommand& command) { command.values = {0.5}; },
+       "ids and values: must be as many (0 and 1 are there)"},
+      {[](AppliedCommand& command) {
+         command.ids = {3};
+         command.values = {0.5};
+       },
+       "ids: must be empty: the craft has no actuators but its engines"},
   };
   for (const auto& [change, rule] : cases) {
     damage<AppliedCommand>("/craft/commands", change);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -122,6 +123,27 @@ TEST_F(RecordedRun, AStateThatCameAfterAnEventOfItsTickIsComparedAfterIt) {
   const ReplayResult result = replay(recording_, scenario_, true);
   EXPECT_FALSE(result.difference);
   EXPECT_EQ(result.compared_states, recording_.states.size());
+}
+
+TEST_F(RecordedRun, WhatAnotherVersionKnewMoreOfACraftIsFound) {
+  const auto differenceWith = [this](const std::function<void(hovercraft_sim::State&)>& change) {
+    Recording changed = recording_;
+    change(changed.states[changed.states.size() / 2].state);
+    return replay(changed, scenario_, true).difference;
+  };
+  EXPECT_FALSE(differenceWith([](auto&) {}));
+  const auto actuators = differenceWith([](auto& state) { state.actuators = {1.0, 2.0}; });
+  ASSERT_TRUE(actuators);
+  EXPECT_EQ(actuators->field, "actuators");
+  EXPECT_EQ(actuators->recorded, "2 numbers");
+  EXPECT_EQ(actuators->replayed, "0 numbers");
+  const auto extra = differenceWith([](auto& state) { state.extra = {1.0}; });
+  ASSERT_TRUE(extra);
+  EXPECT_EQ(extra->field, "extra");
+  const auto sensors = differenceWith([](auto& state) { state.sensor_hash = 10; });
+  ASSERT_TRUE(sensors);
+  EXPECT_EQ(sensors->field, "sensor_hash");
+  EXPECT_EQ(sensors->recorded, "000000000000000a");
 }
 
 TEST_F(RecordedRun, OneChangedBitIsFound) {

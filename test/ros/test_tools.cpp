@@ -82,6 +82,14 @@ TEST_F(Tools, SimulateAndCompareWorkTogether) {
   EXPECT_EQ(run("compare {}a.csv {}held.csv --tolerance 10 --attitude-tolerance 10").status, 0);
 }
 
+TEST_F(Tools, EachSaysItsVersionAndThatOfThePhysics) {
+  for (const char* tool : {"closest", "compare", "mass_properties", "replay", "simulate"}) {
+    const Outcome outcome = run(std::string(tool) + " --version");
+    EXPECT_EQ(outcome.status, 0) << tool;
+    EXPECT_EQ(outcome.output, std::string(tool) + " of hovercraft_sim 0.2.0, physics version 1\n");
+  }
+}
+
 TEST_F(Tools, NoneWritesOverWhatItReads) {
   folder_.write("s.yaml", oneCraftYaml());
   ASSERT_EQ(run("simulate {}s.yaml -d 0.1 -o {}a.bag").status, 0);

@@ -24,8 +24,9 @@ inline void PrintTo(const BrokenRule& rule, std::ostream* stream) {  // NOLINT: 
 // ---- keys ---------------------------------------------------------------------------------------
 inline const std::vector<BrokenRule> kBrokenKeys = {
     {"UnknownKey", "seed: 7", "sede: 7",
-     "sede = 7: unknown key; known here: step_size, integrator, orientation, model, gravity, wind, "
-     "seed, vehicles, world"},
+     "sede = 7: unknown key; known here: physics_version, step_size, integrator, orientation, "
+     "model, "
+     "gravity, wind, seed, vehicles, world"},
     {"UnknownVehicleKey", "    mass: 5.5", "    weight: 5.5",
      "vehicles.alpha.weight = 5.5: unknown key; known here: mass, inertia, center_of_mass, parts, "
      "engines, drag, hull, material, visual, initial, sensors, tf"},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/make_shared.hpp>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,7 @@
 #include <rosbag/message_instance.h>
 
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/ros/older_messages.h"
 
 namespace hovercraft_ros {
 
@@ -38,7 +40,7 @@ auto readingBag(const std::string& path, const Read& read) {
   }
 }
 
-/// The message as its type.
+/// The message as its type; one of an older format (older_messages.h) becomes one of today.
 /// @throws std::invalid_argument if it is of another type, or damaged.
 template <class Message>
 boost::shared_ptr<const Message> messageAs(const std::string& path,
@@ -47,6 +49,13 @@ boost::shared_ptr<const Message> messageAs(const std::string& path,
   boost::shared_ptr<const Message> message;
   try {
     message = instance.instantiate<Message>();
+    if constexpr (OlderFormat<Message>::kExists) {
+      // Any type with its fields has its MD5 sum: only one of this name is an older one.
+      if (!message && instance.getDataType() == type) {
+        const auto old = instance.instantiate<typename OlderFormat<Message>::Message>();
+        if (old) message = boost::make_shared<Message>(OlderFormat<Message>::upgraded(*old));
+      }
+    }
   } catch (const ros::Exception& error) {
     failAt(path, instance, "cannot be read as " + type + ": " + error.what());
   } catch (const std::length_error&) {  // of a list whose length is none
