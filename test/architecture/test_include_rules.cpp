@@ -49,9 +49,11 @@ const std::map<std::string, Rule>& rules() {
        {{"math", "geometry", "body", "hovercraft", "collision", "contact", "world"},
         {"fmt/", "yaml-cpp/", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros", {{"math", "geometry", "body", "hovercraft", "sim"}, of_ros}},
-      {"report", {{"math", "geometry", "body", "hovercraft", "sim", "ros"}, of_ros + Names{"zlib.h"}}},
+      {"report",
+       {{"math", "geometry", "body", "hovercraft", "sim", "ros"}, of_ros + Names{"zlib.h"}}},
       {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
-      {"tools", {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+      {"tools",
+       {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
   return table;
 }

@@ -9,7 +9,6 @@ import {
   DirectionalLight,
   DoubleSide,
   EdgesGeometry,
-  GridHelper,
   Group,
   Line,
   LineBasicMaterial,
@@ -73,6 +72,21 @@ function drawsInSoftware(): boolean {
   const renderer = String(context.getParameter(names.UNMASKED_RENDERER_WEBGL));
   context.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|softpipe|software/i.test(renderer);
+}
+
+/** A net of lines in pieces of a cell: renderers without hardware lose a line that begins behind the camera. */
+function gridGeometry(cells: number, cell: number): BufferGeometry {
+  const points: number[] = [];
+  const half = (cells * cell) / 2;
+  for (let i = 0; i <= cells; ++i) {
+    for (let j = 0; j < cells; ++j) {
+      const [across, from, to] = [i * cell - half, j * cell - half, (j + 1) * cell - half];
+      points.push(across, from, 0, across, to, 0, from, across, 0, to, across, 0);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
+  return geometry;
 }
 
 interface Thrust {
@@ -176,12 +190,11 @@ export class SceneView {
     const bodies = this.report.runs.flatMap((run) => run.bodies);
     const reach = Math.max(10 * this.size, ...bodies.flatMap(({ motion }) =>
       motion.position.slice(0, 2).map((column) => column.reduce((most, value) => Math.max(most, Math.abs(value)), 0))));
-    const cell = roundStep(Math.max(1.2 * this.size, reach / 60));
+    const cell = roundStep(Math.max(1.2 * this.size, reach / 40));
     const cells = 2 * Math.ceil((1.6 * reach) / cell);
     const lowest = Math.min(0, ...bodies.map((body) =>
       (body.motion.position[2]?.[0] ?? 0) + Math.min(0, ...cornersOf(body.shapes).map(([, , z]) => z))));
-    const grid = new GridHelper(cells * cell, cells, lines, lines);
-    grid.rotateX(Math.PI / 2);
+    const grid = new LineSegments(gridGeometry(cells, cell), new LineBasicMaterial({ color: lines }));
     grid.position.z = 0.002 * this.size;
     const plane = new Mesh(new PlaneGeometry(cells * cell, cells * cell), new MeshBasicMaterial({ color: ground }));
     const made = new Group();
