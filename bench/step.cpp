@@ -43,11 +43,12 @@ void stepAlone(benchmark::State& state, Case which) {
                                 ? Mobility::spatial(mass.mass, mass.I_BBo_B)
                                 : Mobility::planar(mass.mass, mass.I_BBo_B);
   const HovercraftModel model = {mobility, EngineGeometry(craft.engines, mass.p_HB), craft.drag,
-                                 Vector3::Zero(), scenario.wind};
+                                 Vector3::Zero()};
   const Vector3 thrusts = demandedThrusts();
   const ThrustCourse course = {thrusts, thrusts, thrusts};
-  const DrivenHovercraft system = {model, course};
-  auto body = std::get<RigidBodyState<Orientation>>(simulation.state(0).body);
+  const Environment environment = {scenario.wind};
+  const DrivenBody system = {model, course, environment};
+  auto body = std::get<RigidBodyState<Orientation>>(simulation.state().bodies[0]);
   const double h = scenario.stepSize();
   while (state.KeepRunning()) {
     body = integrationStep(which.integrator, body, system, h);

@@ -49,7 +49,7 @@ system_family() {
 packages_for() {
   local common
   case "$1" in
-    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
+    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libpng-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
     build) common="$(packages_for core) libboost-program-options-dev zlib1g-dev" ;;
     fast) common='ccache ninja-build' ;;
@@ -77,9 +77,9 @@ packages_of_debian() {
   case "$1" in
     build) echo catkin ros-message-generation libdiagnostic-updater-dev \
       libbz2-dev libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libnav-msgs-dev \
-      librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev \
+      librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev \
       libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs ros-std-srvs \
-      python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-std-srvs \
+      python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs python3-std-msgs python3-std-srvs \
       python3-tf2-msgs python3-visualization-msgs python3-rospy python3-rosservice python3-rosbag python3-roslaunch \
       python3-rostopic rosbash rosout ;;
     # The runtime of clang's sanitizers; before, it was part of what clang depends on.
@@ -93,7 +93,7 @@ packages_of_debian() {
 packages_of_noetic() {
   case "$1" in
     build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs message-generation nav-msgs rosbag rosbash \
-      roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic std-msgs std-srvs tf2-msgs tf2-ros visualization-msgs ;;
+      roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic sensor-msgs std-msgs std-srvs tf2-msgs tf2-ros visualization-msgs ;;
     demo) echo ros-noetic-rostest ;;
     test) printf 'ros-noetic-%s ' rosnode rosmsg rosservice ;;
     rviz) printf 'ros-noetic-%s ' rviz ;;
@@ -148,8 +148,8 @@ explain_unknown_system() {
   cat >&2 << 'TEXT'
 This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install these by hand, then run this again:
   a C++17 compiler, make, CMake 3.16, Python 3 (with matplotlib for plot_run.py)
-  Boost (program_options), Eigen 3.3, fmt, qhull, yaml-cpp, zlib (with their headers)
-  ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, std_msgs, std_srvs, rosgraph_msgs,
+  Boost (program_options), Eigen 3.3, fmt, libpng, qhull, yaml-cpp, zlib (with their headers)
+  ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, sensor_msgs, std_msgs, std_srvs, rosgraph_msgs,
   visualization_msgs, diagnostic_updater, dynamic_reconfigure, message_generation, roslaunch, rosservice, rosbash, rosout; for the
   tests also rostest, rostopic, rosnode, rosmsg, GoogleTest, Google Benchmark, clang with its sanitizers' runtime;
   for pictures of the running simulation rviz

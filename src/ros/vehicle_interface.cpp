@@ -42,9 +42,12 @@ VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun&
   ros::NodeHandle own(handle, messages_.name());
   pose_ = advertise(own, kPoseTopic, &VehicleMessages::pose, latched);
   twist_ = advertise(own, kTwistTopic, &VehicleMessages::twist, latched);
-  odom_ = advertise(own, kOdomTopic, &VehicleMessages::odom, latched);
+  odom_ = advertise(own, owner_.truth_odom.c_str(), &VehicleMessages::odom, latched);
   engines_ = advertise(own, kEnginesTopic, &VehicleMessages::engines, latched);
   state_ = advertise(own, kStateTopic, &VehicleMessages::state, latched);
+  if (messages_.hasCushion()) {
+    cushion_ = advertise(own, kCushionTopic, &VehicleMessages::cushion, latched);
+  }
   commands_ = own.advertise<hovercraft_sim::AppliedCommand>(kCommandsTopic, kCommandQueue);
   subscribe(own);
 }
@@ -112,8 +115,10 @@ void VehicleInterface::noteSaturation(const hovercraft::Command& command,
 }
 
 std::vector<std::string> VehicleInterface::topics() const {
-  return {pose_.topic(),    twist_.topic(), odom_.topic(),
-          engines_.topic(), state_.topic(), commands_.getTopic()};
+  std::vector<std::string> names = {pose_.topic(),    twist_.topic(), odom_.topic(),
+                                    engines_.topic(), state_.topic(), commands_.getTopic()};
+  if (messages_.hasCushion()) names.push_back(cushion_.topic());
+  return names;
 }
 
 void VehicleInterface::publish() {
@@ -122,6 +127,7 @@ void VehicleInterface::publish() {
   odom_.publish(messages_.odom());
   engines_.publish(messages_.engines());
   state_.publish(messages_.state());
+  if (messages_.hasCushion()) cushion_.publish(messages_.cushion());
 }
 
 void VehicleInterface::publishApplied(const hovercraft::Command& command) {

@@ -25,12 +25,13 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
   transform_.header.frame_id = frames_.world;
   transform_.child_frame_id = base_frame;
   engines_.header.frame_id = base_frame;
+  cushion_.header.frame_id = base_frame;
   state_.header.frame_id = frames_.world;
 }
 
 void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
   for (std_msgs::Header* header : {&pose_.header, &twist_.header, &odom_.header, &transform_.header,
-                                   &engines_.header, &state_.header}) {
+                                   &engines_.header, &state_.header, &cushion_.header}) {
     header->stamp = place.stamp;
   }
   const hovercraft::Motion motion = simulation.motion(vehicle_);
@@ -62,6 +63,21 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   state_.commands = commands_;
   state_.events = place.events;
   state_.hash = simulation.hash(vehicle_);
+  if (hasCushion()) fillCushion(simulation);
+}
+
+void VehicleMessages::fillCushion(const hovercraft::Simulation& simulation) {
+  simulation.cushionReport(vehicle_, cushion_report_);
+  cushion_.cells.resize(cushion_report_.cells.size());
+  for (std::size_t i = 0; i < cushion_.cells.size(); ++i) {
+    const hovercraft::CellReport& cell = cushion_report_.cells[i];
+    cushion_.cells[i].pressure = cell.pressure;
+    cushion_.cells[i].gap = cell.gap;
+    cushion_.cells[i].flow = cell.flow;
+    cushion_.cells[i].force = cell.force;
+  }
+  cushion_.fan_speed = cushion_report_.fan_speeds;
+  cushion_.power = cushion_report_.power;
 }
 
 /// Commands are counted anew in each episode.

@@ -29,7 +29,7 @@ class TimeoutWatch {
     for (Watched& watched : engines_) {
       EngineTimeout& timeout = watched.timeout;
       const EngineState& state =
-          simulation_.state(timeout.vehicle).engines[static_cast<std::size_t>(timeout.engine)];
+          simulation_.state().engines[timeout.vehicle][static_cast<std::size_t>(timeout.engine)];
       const bool is_late = state.command_tick != EngineState::kNever &&
                            tick - state.command_tick >= watched.timeout_ticks;
       if (is_late && !watched.was_late && timeout.count++ == 0) {
@@ -67,6 +67,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
   TimeoutWatch watch(simulation);
   simulation.on_applied = [&sink](const Command& command) { sink.applied(command); };
   simulation.on_contact = [&sink](const ContactEvent& event) { sink.contact(event); };
+  simulation.on_sample = [&sink](const SensorSample& sample) { sink.sample(sample); };
   std::optional<Command> waiting = commands.next();
   Tick next_output = simulation.tick();
   while (true) {
@@ -83,6 +84,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
   }
   simulation.on_applied = nullptr;
   simulation.on_contact = nullptr;
+  simulation.on_sample = nullptr;
   sink.close();
   return {watch.found(), simulation.hash()};
 }

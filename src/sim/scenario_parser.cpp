@@ -11,26 +11,17 @@
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/cushion_parser.h"
+#include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
+#include "hovercraft_sim/sim/sensor_parser.h"
+#include "hovercraft_sim/sim/step_time.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
 namespace hovercraft {
 namespace {
-
-std::int64_t nanoseconds(const ConfigReader& reader, const char* key, double seconds) {
-  const double exact = seconds * static_cast<double>(kNanosecondsPerSecond);
-  if (!(exact <= kMaxNanoseconds)) {
-    reader.fail(key,
-                fmt::format("must be at most {:.0f} s", kMaxNanoseconds / kNanosecondsPerSecond));
-  }
-  const std::int64_t whole = std::llround(exact);
-  if (std::abs(exact - static_cast<double>(whole)) > kNanosecondSlack * std::abs(exact)) {
-    reader.fail(key, "must be a whole number of nanoseconds");
-  }
-  return whole;
-}
 
 Matrix3 parseInertia(const ConfigReader& vehicle) {
   const ConfigReader reader = vehicle.map("inertia");
@@ -165,8 +156,8 @@ EngineParameters parseEngine(const ConfigReader& reader) {
   engine.min_thrust = reader.number("min_thrust", kNotPositive);
   engine.max_thrust = reader.number("max_thrust", kNotNegative);
   engine.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
-  engine.timeout_ns = nanoseconds(reader, "timeout",
-                                  reader.numberOr(kDefaultCommandTimeout, "timeout", kNotNegative));
+  engine.timeout_ns = nanosecondsOf(
+      reader, "timeout", reader.numberOr(kDefaultCommandTimeout, "timeout", kNotNegative));
   return engine;
 }
 
@@ -214,13 +205,14 @@ namespace {
 VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
                              const ScenarioSource& source, BodyModel model) {
   reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "hull",
-                    "material", "visual", "initial"});
+                    "material", "visual", "initial", "cushion", "sensors", "tf"});
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   const ConfigReader engines = reader.map("engines");
   engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     vehicle.engines[i] = parseEngine(engines.map(kEngineNames[i]));
   }
+  vehicle.cushion = parseCushion(reader);
   return vehicle;
 }
 
@@ -230,15 +222,15 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
   reader.allowOnly({"step_size", "integrator", "orientation", "model", "gravity", "wind", "seed",
-                    "vehicles", "world"});
+                    "vehicles", "world", "ground"});
   Scenario scenario;
-  scenario.step_ns = nanoseconds(reader, "step_size", reader.number("step_size", kPositive));
+  scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.integrator), "integrator", kIntegratorNames));
+      static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));
   scenario.orientation = static_cast<OrientationKind>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.orientation), "orientation", kOrientationNames));
+      static_cast<std::size_t>(scenario.orientation), "orientation", orientationNames()));
   scenario.model = static_cast<BodyModel>(
-      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", kModelNames));
+      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", modelNames()));
   scenario.gravity = reader.vectorOr(Vector3::Zero(), "gravity");
   scenario.wind = reader.vectorOr(Vector3::Zero(), "wind");
   scenario.seed = reader.wholeNumberOr(scenario.seed, "seed");
@@ -246,7 +238,10 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
     scenario.vehicles.push_back(parseVehicle(name, vehicle, source, scenario.model));
   }
   if (scenario.vehicles.empty()) reader.fail("vehicles", "must name at least one vehicle");
+  scenario.ground = parseGround(reader, source);
   parseWorld(reader, source, scenario);
+  checkCushions(reader, source, scenario);
+  parseSensors(reader, scenario);
   return scenario;
 }
 

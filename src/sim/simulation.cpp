@@ -6,10 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/cushion_builder.h"
+#include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -31,19 +32,6 @@ bool isSound(const RigidBodyState<Orientation>& body) {
   return std::isfinite((sum.x() + sum.y()) + sum.z()) && isRotation(body.orientation);
 }
 
-/// The wrenches on one craft, each added up in its frame; false if there are none.
-bool sumWrenches(const std::vector<ExternalWrench>& wrenches, std::size_t vehicle,
-                 ExternalLoad& load) {
-  bool any = false;
-  for (const ExternalWrench& external : wrenches) {
-    if (external.vehicle != vehicle) continue;
-    any = true;
-    Wrench& sum = external.frame == ExternalWrench::Frame::kWorld ? load.in_world : load.in_body;
-    sum = sum + external.wrench;
-  }
-  return any;
-}
-
 /// Ends what drag left of the momenta before it becomes denormal numbers.
 /// @returns false if the state is not finite.
 template <class Orientation>
@@ -58,18 +46,21 @@ bool settle(RigidBodyState<Orientation>& body) {
 
 }  // namespace
 
-Simulation::Simulation(Scenario scenario) : scenario_(std::move(scenario)) {
+Simulation::Simulation(Scenario scenario)
+    : scenario_(std::move(scenario)),
+      world_(worldOf(scenario_)),
+      ground_(groundOf(scenario_)),
+      bare_ground_(bareGroundOf(scenario_)) {
   const FloatingPointEnvironment environment;
-  h_ = scenario_.stepSize();
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
-    models_.push_back(modelOf(scenario_, vehicle));
     engine_dynamics_.emplace_back(vehicle.engines, scenario_.step_ns);
   }
-  if (scenario_.world) {
-    world_.emplace(worldOf(scenario_));
-    drives_.resize(world_->bodies().size());
-  }
-  before_.reserve(models_.size());
+  inputs_.resize(world_.scene().bodies().size());
+  environment_.wind_W = scenario_.wind;
+  environment_.ground = ground_.get();
+  environment_.bare_ground = bare_ground_.get();
+  for (StepInputs& inputs : inputs_) inputs.environment = environment_;
+  sensors_ = sensorSuiteOf(scenario_);
   reset(scenario_.seed);
 }
 
@@ -77,39 +68,44 @@ void Simulation::reset(std::int64_t seed) {
   const FloatingPointEnvironment environment;
   state_ = SimulationState();
   state_.seed = seed;
-  for (std::size_t i = 0; i < models_.size(); ++i) {
-    state_.vehicles.push_back(
-        {initialState(scenario_, scenario_.vehicles[i], models_[i].mobility), {}});
+  state_.engines.resize(vehicleCount());
+  const auto start = [this](const VehicleScenario& body) {
+    const Mobility& mobility = modelOf(state_.bodies.size()).mobility;
+    state_.bodies.push_back(initialState(scenario_, body, mobility));
+  };
+  for (const VehicleScenario& vehicle : scenario_.vehicles) start(vehicle);
+  if (scenario_.world) {
+    for (const VehicleScenario& body : scenario_.world->bodies) start(body);
+    world_.partTouching(state_.bodies);
   }
-  if (world_) {
-    for (std::size_t i = 0; i < scenario_.world->bodies.size(); ++i) {
-      const Mobility& mobility = world_->bodies()[models_.size() + i].model.mobility;
-      state_.bodies.push_back(initialState(scenario_, scenario_.world->bodies[i], mobility));
-    }
-    partTouching(-1);
-  }
+  if (sensors_) state_.sensors = sensors_->start(seed, state_.tick, state_.bodies);
 }
 
 void Simulation::restore(const SimulationState& state) {
-  demand(state.vehicles.size() == models_.size() &&
-             state.bodies.size() == (world_ ? scenario_.world->bodies.size() : 0),
+  demand(state.bodies.size() == inputs_.size() && state.engines.size() == vehicleCount(),
          "a state must come from the same scenario");
+  demand(!sensors_ || sensors_->fits(state.sensors, state.tick),
+         "what sensors remember must come from the same scenario");
   state_ = state;
 }
 
 void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                            const Twist& twist) {
   const FloatingPointEnvironment environment;
-  state_.vehicles.at(vehicle).body = placed(p_WB, q_WB, twist, models_[vehicle].mobility);
-  if (!world_) return;
-  const auto index = static_cast<std::int32_t>(vehicle);
-  auto& contacts = state_.contacts;
-  contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
-                                [index](const ContactMemory& contact) {
-                                  return contact.a == index || contact.b == index;
-                                }),
-                 contacts.end());
-  partTouching(index);
+  demand(vehicle < vehicleCount(), "a motion must name a vehicle of the scenario");
+  state_.bodies[vehicle] = placed(p_WB, q_WB, twist, modelOf(vehicle).mobility);
+  if (scenario_.world) {
+    const auto index = static_cast<std::int32_t>(vehicle);
+    auto& contacts = state_.contacts;
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                  [index](const ContactMemory& contact) {
+                                    return contact.a == index || contact.b == index;
+                                  }),
+                   contacts.end());
+    world_.partTouching(state_.bodies, index);
+  }
+  if (!sensors_) return;
+  sensors_->relocate(vehicle, state_.seed, state_.tick, state_.bodies, state_.sensors);
 }
 
 BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
@@ -123,34 +119,17 @@ BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const 
 std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vector3& p_WB,
                                                   const Quaternion& q_WB) const {
   const FloatingPointEnvironment environment;
-  if (!world_) return std::nullopt;
-  std::vector<BodyState> states = worldStates();
-  states.at(vehicle) = placed(p_WB, q_WB, Twist(), models_[vehicle].mobility);
+  if (!scenario_.world) return std::nullopt;
+  std::vector<BodyState> states = state_.bodies;
+  states.at(vehicle) = placed(p_WB, q_WB, Twist(), modelOf(vehicle).mobility);
   const auto index = static_cast<int>(vehicle);
-  if (auto overlap = world_->overlap(states, index)) return overlap;
-  world_->partTouching(states, index);
-  return world_->squeezed(states, index);
-}
-
-std::vector<BodyState> Simulation::worldStates() const {
-  std::vector<BodyState> states;
-  states.reserve(state_.vehicles.size() + state_.bodies.size());
-  for (const VehicleState& vehicle : state_.vehicles) states.push_back(vehicle.body);
-  states.insert(states.end(), state_.bodies.begin(), state_.bodies.end());
-  return states;
-}
-
-/// Sets bodies that were put where they touch apart by half the tolerance. @param body -1: all.
-void Simulation::partTouching(int body) {
-  std::vector<BodyState> states = worldStates();
-  world_->partTouching(states, body);
-  const std::size_t count = state_.vehicles.size();
-  for (std::size_t i = 0; i < count; ++i) state_.vehicles[i].body = states[i];
-  for (std::size_t i = count; i < states.size(); ++i) state_.bodies[i - count] = states[i];
+  if (auto overlap = world_.overlap(states, index)) return overlap;
+  world_.partTouching(states, index);
+  return world_.squeezed(states, index);
 }
 
 void Simulation::applyWrench(const ExternalWrench& wrench) {
-  demand(wrench.vehicle < models_.size(), "a wrench must name a vehicle of the scenario");
+  demand(wrench.vehicle < vehicleCount(), "a wrench must name a vehicle of the scenario");
   state_.wrenches.push_back(wrench);
 }
 
@@ -165,14 +144,14 @@ void Simulation::endWrenches() {
 
 void Simulation::push(const Command& command) {
   demand(command.tick >= state_.tick, "a command must not lie in the past");
-  demand(command.vehicle < state_.vehicles.size(), "a command must name a vehicle of the scenario");
+  demand(command.vehicle < vehicleCount(), "a command must name a vehicle of the scenario");
   demand(command.thrusts.allFinite(), "a thrust must be checked before it becomes a command");
   state_.commands.push(command);
 }
 
 void Simulation::applyDueCommands() {
   while (const Command* command = state_.commands.takeDue(state_.tick)) {
-    EngineStates& engines = state_.vehicles[command->vehicle].engines;
+    EngineStates& engines = state_.engines[command->vehicle];
     for (int i = 0; i < kEngineCount; ++i) {
       if ((command->engines & maskOf(static_cast<EngineId>(i))) == 0) continue;
       EngineState& engine = engines[static_cast<std::size_t>(i)];
@@ -183,47 +162,31 @@ void Simulation::applyDueCommands() {
   }
 }
 
-/// Each craft by itself. If one diverges, those before it go back.
-void Simulation::stepVehicles() {
-  if (state_.vehicles.size() > 1) before_ = state_.vehicles;
-  for (std::size_t vehicle = 0; vehicle < state_.vehicles.size(); ++vehicle) {
-    if (stepVehicle(vehicle)) continue;
-    if (vehicle > 0) state_.vehicles.swap(before_);
-    failAsDiverged("vehicles", scenario_.vehicles[vehicle].name);
+/// What acts on each body in the step that begins now.
+void Simulation::prepareInputs() {
+  std::size_t vehicle = 0;
+  for (const EngineStates& engines : state_.engines) {
+    StepInputs& inputs = inputs_[vehicle];
+    inputs.thrusts = engine_dynamics_[vehicle].course(engines, state_.tick);
+    inputs.is_loaded = false;
+    ++vehicle;
+  }
+  for (const ExternalWrench& external : state_.wrenches) {
+    StepInputs& inputs = inputs_[external.vehicle];
+    if (!inputs.is_loaded) inputs.load = ExternalLoad();
+    inputs.is_loaded = true;
+    ExternalLoad& load = inputs.load;
+    Wrench& sum = external.frame == ExternalWrench::Frame::kWorld ? load.in_world : load.in_body;
+    sum = sum + external.wrench;
   }
 }
 
-/// @returns false, and nothing has changed, if the motion would not be finite.
-bool Simulation::stepVehicle(std::size_t vehicle) {
-  VehicleState& state = state_.vehicles[vehicle];
-  const ThrustCourse thrusts = engine_dynamics_[vehicle].course(state.engines, state_.tick);
-  ExternalLoad load;
-  const bool is_pushed = sumWrenches(state_.wrenches, vehicle, load);
-  const DrivenHovercraft system = {models_[vehicle], thrusts, is_pushed ? &load : nullptr};
-  const bool is_sound = std::visit(
-      [&](auto& body) {
-        auto next =
-            integrationStep<decltype(body.orientation)>(scenario_.integrator, body, system, h_);
-        if (!settle(next)) return false;
-        body = next;
-        return true;
-      },
-      state.body);
-  if (is_sound) takeThrusts(vehicle, thrusts);
-  return is_sound;
-}
-
-void Simulation::takeThrusts(std::size_t vehicle, const ThrustCourse& thrusts) {
-  for (int i = 0; i < kEngineCount; ++i) {
-    state_.vehicles[vehicle].engines[static_cast<std::size_t>(i)].thrust = thrusts.end[i];
-  }
-}
-
-void Simulation::failAsDiverged(const char* kind, const std::string& name) const {
+void Simulation::failAsDiverged(std::size_t body) const {
   throw std::runtime_error(fmt::format(
       "{}.{}: the motion diverges (it is not finite after tick {}): step_size = {} s is too "
       "long for these forces",
-      kind, name, state_.tick, h_));
+      body < vehicleCount() ? "vehicles" : "world.bodies", world_.scene().bodies()[body].name,
+      state_.tick, scenario_.stepSize()));
 }
 
 void Simulation::step() {
@@ -232,48 +195,35 @@ void Simulation::step() {
   {
     // Read here, as on_applied may have changed it; the callbacks find that of the caller.
     const FloatingPointEnvironment environment;
-    if (world_) {
-      stepWorld();
-    } else {
-      stepVehicles();
-    }
+    prepareInputs();
+    const int lost = world_.step(inputs_, state_.bodies, state_.contacts, result_);
+    if (lost != World::kNone) failAsDiverged(static_cast<std::size_t>(lost));
+    takeResult();
   }
   ++state_.tick;
-  if (!world_ || !on_contact) return;
-  sortRecords();
-  for (const ContactRecord& record : records_) on_contact(eventOf(record));
+  if (on_contact) {
+    sortRecords();
+    for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
+  }
+  if (sensors_) readSensors();
 }
 
-void Simulation::stepWorld() {
-  const std::size_t count = state_.vehicles.size();
-  moving_.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    BodyDrive& drive = drives_[i];
-    drive.thrusts = engine_dynamics_[i].course(state_.vehicles[i].engines, state_.tick);
-    drive.load = ExternalLoad();
-    drive.is_pushed = sumWrenches(state_.wrenches, i, drive.load);
-    moving_.push_back(state_.vehicles[i].body);
+/// Makes what the step ended with the state, if all of it is sound.
+void Simulation::takeResult() {
+  const bool bodies_meet = scenario_.world.has_value();
+  std::size_t body = 0;
+  for (BodyState& state : result_.states) {
+    const bool is_sound = std::visit([](auto& moved) { return settle(moved); }, state);
+    if (!is_sound || (bodies_meet && !isInReach(state))) failAsDiverged(body);
+    ++body;
   }
-  moving_.insert(moving_.end(), state_.bodies.begin(), state_.bodies.end());
-  records_.clear();
-  contacts_ = state_.contacts;
-  const auto fail = [this, count](std::size_t body) {
-    failAsDiverged(body < count ? "vehicles" : "world.bodies",
-                   world_->nameOf(static_cast<std::int32_t>(body)));
-  };
-  const int lost = world_->step(drives_, moving_, contacts_, records_);
-  if (lost != World::kNone) fail(static_cast<std::size_t>(lost));
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    const bool is_sound = std::visit([](auto& body) { return settle(body); }, moving_[i]);
-    if (!is_sound || !isInReach(moving_[i])) fail(i);
+  state_.bodies.swap(result_.states);
+  if (bodies_meet) state_.contacts.swap(result_.memory);
+  auto inputs = inputs_.cbegin();
+  for (EngineStates& engines : state_.engines) {
+    const Vector3& thrusts = (inputs++)->thrusts.end;
+    for (int i = 0; i < kEngineCount; ++i) engines[static_cast<std::size_t>(i)].thrust = thrusts[i];
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    state_.vehicles[i].body = moving_[i];
-    takeThrusts(i, drives_[i].thrusts);
-  }
-  std::copy(moving_.begin() + static_cast<std::ptrdiff_t>(count), moving_.end(),
-            state_.bodies.begin());
-  state_.contacts.swap(contacts_);
 }
 
 void Simulation::sortRecords() {
@@ -282,8 +232,9 @@ void Simulation::sortRecords() {
   const auto is_earlier = [](const ContactRecord& x, const ContactRecord& y) {
     return x.time < y.time;
   };
-  for (auto next = records_.begin(); next != records_.end(); ++next) {
-    std::rotate(std::upper_bound(records_.begin(), next, *next, is_earlier), next, next + 1);
+  auto& records = result_.records;
+  for (auto next = records.begin(); next != records.end(); ++next) {
+    std::rotate(std::upper_bound(records.begin(), next, *next, is_earlier), next, next + 1);
   }
 }
 
@@ -296,8 +247,8 @@ ContactEvent Simulation::eventOf(const ContactRecord& record) const {
   event.time_ns = begin_ns + std::llround(record.time * static_cast<double>(kNanosecondsPerSecond));
   event.time = toSeconds(begin_ns) + record.time;
   event.tick = state_.tick;
-  event.a = world_->nameOf(record.a);
-  event.b = world_->nameOf(record.b);
+  event.a = world_.scene().nameOf(record.a);
+  event.b = world_.scene().nameOf(record.b);
   event.p_WC = record.p_WC;
   event.nhat_AB_W = record.nhat_AB_W;
   event.impulse_B_W = record.impulse_B_W;
@@ -324,24 +275,47 @@ Motion motionOf(const HovercraftModel& model, const BodyState& state) {
 
 Motion Simulation::motion(std::size_t vehicle) const {
   const FloatingPointEnvironment environment;
-  return motionOf(models_[vehicle], state_.vehicles[vehicle].body);
+  return motionOf(modelOf(vehicle), state_.bodies[vehicle]);
 }
 
 Motion Simulation::motionAfterSetting(std::size_t vehicle, const Vector3& p_WB,
                                       const Quaternion& q_WB, const Twist& twist) const {
   const FloatingPointEnvironment environment;
-  const HovercraftModel& model = models_.at(vehicle);
+  const HovercraftModel& model = modelOf(vehicle);
   return motionOf(model, placed(p_WB, q_WB, twist, model.mobility));
 }
 
 Motion Simulation::bodyMotion(std::size_t body) const {
   const FloatingPointEnvironment environment;
-  return motionOf(world_->bodies()[models_.size() + body].model, state_.bodies[body]);
+  return motionOf(modelOf(vehicleCount() + body), state_.bodies[vehicleCount() + body]);
+}
+
+std::size_t Simulation::cellCount(std::size_t vehicle) const {
+  const auto& forces = modelOf(vehicle).ground_forces;
+  return forces != nullptr && forces->cushion() ? forces->cushion()->cellCount() : 0;
+}
+
+void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const {
+  const FloatingPointEnvironment environment;
+  const HovercraftModel& model = modelOf(vehicle);
+  report.cells.resize(cellCount(vehicle));
+  report.fan_speeds.clear();
+  report.power = 0.0;
+  if (report.cells.empty()) return;
+  const BodyMotion motion =
+      std::visit([&](const auto& state) { return model.motionInBody(state, environment_); },
+                 state_.bodies[vehicle]);
+  const GroundForces& forces = *model.ground_forces;
+  forces.report(motion, environment_, report.cells.data());
+  for (const CellReport& cell : report.cells) report.power += cell.pressure * cell.flow;
+  const std::size_t fan_count = forces.cushion()->parameters().fans.size();
+  report.fan_speeds.assign(forces.fanSpeeds().begin(),
+                           forces.fanSpeeds().begin() + static_cast<std::ptrdiff_t>(fan_count));
 }
 
 EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {
   const FloatingPointEnvironment environment;
-  const EngineState& state = state_.vehicles[vehicle].engines[static_cast<std::size_t>(engine)];
+  const EngineState& state = state_.engines[vehicle][static_cast<std::size_t>(engine)];
   const EngineDynamics& dynamics = engine_dynamics_[vehicle];
   const std::int64_t age_ns = dynamics.commandAge(state, state_.tick);
   return {state.commanded, state.thrust, dynamics.isSaturated(engine, state),
@@ -351,7 +325,8 @@ EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {
 std::uint64_t Simulation::hash(std::size_t vehicle) const {
   StateHash hash;
   hash.add(state_.tick);
-  hash.add(state_.vehicles[vehicle]);
+  hash.add(state_.bodies[vehicle]);
+  hash.add(state_.engines[vehicle]);
   for (const ExternalWrench& wrench : state_.wrenches) {
     if (wrench.vehicle == vehicle) hash.add(wrench);
   }
@@ -361,9 +336,12 @@ std::uint64_t Simulation::hash(std::size_t vehicle) const {
 std::uint64_t Simulation::hash() const {
   StateHash hash;
   hash.add(state_.tick);
-  for (const VehicleState& state : state_.vehicles) hash.add(state);
+  for (std::size_t i = 0; i < vehicleCount(); ++i) {
+    hash.add(state_.bodies[i]);
+    hash.add(state_.engines[i]);
+  }
   for (const ExternalWrench& wrench : state_.wrenches) hash.add(wrench);
-  for (const BodyState& body : state_.bodies) hash.add(body);
+  for (std::size_t i = vehicleCount(); i < state_.bodies.size(); ++i) hash.add(state_.bodies[i]);
   for (const ContactMemory& contact : state_.contacts) hash.add(contact);
   return hash.value();
 }

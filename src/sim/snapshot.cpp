@@ -8,6 +8,7 @@
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
@@ -35,10 +36,11 @@ std::string bodyText(const BodyState& state) {
       state);
 }
 
-std::string vehicleText(const std::string& name, const VehicleState& state) {
-  std::string yaml = fmt::format("  {}:\n    body: {}", yamlText(name), bodyText(state.body));
+std::string vehicleText(const std::string& name, const BodyState& body,
+                        const EngineStates& engines) {
+  std::string yaml = fmt::format("  {}:\n    body: {}", yamlText(name), bodyText(body));
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    const EngineState& engine = state.engines[i];
+    const EngineState& engine = engines[i];
     yaml +=
         fmt::format("    {}: {{commanded: {}, thrust: {}, command_tick: {}}}\n", kEngineNames[i],
                     yamlNumber(engine.commanded), yamlNumber(engine.thrust), engine.command_tick);
@@ -49,7 +51,7 @@ std::string vehicleText(const std::string& name, const VehicleState& state) {
 std::string wrenchText(const Scenario& scenario, const ExternalWrench& external) {
   return fmt::format("  - {{vehicle: {}, frame: {}, force: {}, torque: {}, end_tick: {}}}\n",
                      yamlText(scenario.vehicles[external.vehicle].name),
-                     kFrameNames[static_cast<std::size_t>(external.frame)],
+                     frameNames()[static_cast<std::size_t>(external.frame)],
                      yamlVector(external.wrench.force), yamlVector(external.wrench.torque),
                      external.end_tick);
 }
@@ -85,18 +87,20 @@ std::string toSnapshot(const Simulation& simulation) {
   const SimulationState& state = simulation.state();
   std::string yaml = fmt::format("tick: {}\nseed: {}\nhash: '{:016x}'\nvehicles:\n", state.tick,
                                  state.seed, simulation.hash());
-  for (std::size_t i = 0; i < state.vehicles.size(); ++i) {
-    yaml += vehicleText(scenario.vehicles[i].name, state.vehicles[i]);
+  const std::size_t vehicle_count = scenario.vehicles.size();
+  for (std::size_t i = 0; i < vehicle_count; ++i) {
+    yaml += vehicleText(scenario.vehicles[i].name, state.bodies[i], state.engines[i]);
   }
   if (!state.wrenches.empty()) yaml += "wrenches:\n";
   for (const ExternalWrench& external : state.wrenches) yaml += wrenchText(scenario, external);
-  if (!state.bodies.empty()) yaml += "bodies:\n";
-  for (std::size_t i = 0; i < state.bodies.size(); ++i) {
-    yaml += fmt::format("  {}: {}", yamlText(scenario.world->bodies[i].name),
+  if (state.bodies.size() > vehicle_count) yaml += "bodies:\n";
+  for (std::size_t i = vehicle_count; i < state.bodies.size(); ++i) {
+    yaml += fmt::format("  {}: {}", yamlText(scenario.world->bodies[i - vehicle_count].name),
                         bodyText(state.bodies[i]));
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
   for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
+  yaml += sensorStatesText(simulation);
   const std::vector<Command> commands = state.commands.waiting();
   if (!commands.empty()) yaml += "commands:\n";
   for (const Command& command : commands) yaml += commandText(scenario, command);

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
+#include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 /// A snapshot is as foreign as a scenario: it may be any file, or come in a bag. Nothing of it
@@ -110,15 +111,15 @@ EngineState parseEngine(const ConfigReader& reader, const EngineParameters& engi
   return state;
 }
 
-VehicleState parseVehicle(const ConfigReader& reader, const Scenario& scenario,
-                          const VehicleScenario& vehicle, Tick now) {
+void parseVehicle(const ConfigReader& reader, const Scenario& scenario,
+                  const VehicleScenario& vehicle, SimulationState& state) {
   reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
-  VehicleState state;
-  state.body = parseBodyState(reader.map("body"), scenario);
+  state.bodies.push_back(parseBodyState(reader.map("body"), scenario));
+  EngineStates engines;
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    state.engines[i] = parseEngine(reader.map(kEngineNames[i]), vehicle.engines[i], now);
+    engines[i] = parseEngine(reader.map(kEngineNames[i]), vehicle.engines[i], state.tick);
   }
-  return state;
+  state.engines.push_back(engines);
 }
 
 std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenario) {
@@ -163,7 +164,7 @@ ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario)
   ExternalWrench external;
   external.vehicle = parseVehicleName(reader, scenario);
   reader.text("frame");  // it must be there
-  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", kFrameNames));
+  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", frameNames()));
   external.wrench = {reader.vector("force"), reader.vector("torque")};
   external.end_tick = wholeNumber(reader, "end_tick", 0, std::numeric_limits<std::int64_t>::max());
   return external;
@@ -206,15 +207,15 @@ SavedFeature parseFeature(const ConfigReader& reader, const ConvexPolyhedron& hu
 ContactMemory parseContact(const ConfigReader& reader, const World& world) {
   reader.allowOnly({"a", "b", "kind_a", "index_a", "kind_b", "index_b", "hint_a", "hint_b",
                     "resting", "points"});
-  const auto moving = static_cast<std::int32_t>(world.bodies().size());
-  const std::int32_t all = moving + static_cast<std::int32_t>(world.obstacles().size());
+  const auto moving = static_cast<std::int32_t>(world.scene().bodies().size());
+  const std::int32_t all = moving + static_cast<std::int32_t>(world.scene().obstacles().size());
   ContactMemory contact;
   contact.a = index(reader, "a", 0, moving);
   contact.b = index(reader, "b", contact.a + 1, all);
   const SavedFeature a =
-      parseFeature(reader, world.hullOf(contact.a), {"kind_a", "index_a", "hint_a"});
+      parseFeature(reader, world.scene().hullOf(contact.a), {"kind_a", "index_a", "hint_a"});
   const SavedFeature b =
-      parseFeature(reader, world.hullOf(contact.b), {"kind_b", "index_b", "hint_b"});
+      parseFeature(reader, world.scene().hullOf(contact.b), {"kind_b", "index_b", "hint_b"});
   contact.features = {true, a.feature, b.feature, {a.hint, b.hint}};
   contact.resting = reader.flagOr(false, "resting");
   if (!reader.has("points")) return contact;
@@ -247,21 +248,20 @@ std::vector<ContactMemory> parseContacts(const ConfigReader& reader, const World
   return contacts;
 }
 
-void requireCount(const ConfigReader& reader, const char* key, std::size_t count) {
+void requireCount(const ConfigReader& reader, const std::string& key, std::size_t count) {
   if (reader.map(key).maps().size() == count) return;
   reader.fail(key, "must hold those of the scenario and no other");
 }
 
 SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
-                           const World* world) {
+                           const Simulation& started) {
   SimulationState state;
   state.tick = wholeNumber(reader, "tick", 0, latestTick(scenario));
   state.seed = reader.wholeNumberOr(scenario.seed, "seed");
   requireCount(reader, "vehicles", scenario.vehicles.size());
   const ConfigReader vehicles = reader.map("vehicles");
   for (const VehicleScenario& vehicle : scenario.vehicles) {
-    state.vehicles.push_back(
-        parseVehicle(vehicles.map(vehicle.name), scenario, vehicle, state.tick));
+    parseVehicle(vehicles.map(vehicle.name), scenario, vehicle, state);
   }
   if (reader.has("wrenches")) {
     for (const ConfigReader& wrench : reader.list("wrenches")) {
@@ -277,7 +277,8 @@ SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
   } else if (reader.has("bodies")) {
     reader.fail("bodies", "there are none in the scenario");
   }
-  state.contacts = parseContacts(reader, world);
+  state.contacts = parseContacts(reader, started.world());
+  state.sensors = parseSensorStates(reader, state.tick, started);
   state.commands = parseCommands(reader, scenario, state.tick);
   return state;
 }
@@ -296,7 +297,7 @@ void checkMotions(const ConfigReader& reader, const Simulation& simulation) {
   for (std::size_t i = 0; i < scenario.world->bodies.size(); ++i) {
     requireMotion(reader, "bodies." + scenario.world->bodies[i].name, simulation.bodyMotion(i));
   }
-  if (const auto overlap = simulation.world()->overlap(simulation.worldStates())) {
+  if (const auto overlap = simulation.world()->overlap(simulation.state().bodies)) {
     reader.fail("", fmt::format("{} and {} overlap by {:.3g} m: must be at most the tolerance",
                                 overlap->a, overlap->b, overlap->depth));
   }
@@ -333,17 +334,18 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
   const FloatingPointEnvironment environment;
   const ConfigReader reader(snapshotTree(text, source), source, "", false);
   reader.allowOnly({"tick", "seed", "hash", "vehicles", "wrenches", "bodies", "contacts",
-                    "commands", "scenario"});
+                    "sensor_hash", "sensors", "commands", "scenario"});
   if (!isTextOf(scenario, reader.text("scenario"), source)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }
   Simulation check(scenario);
-  SimulationState state = parseState(reader, scenario, check.world());
+  SimulationState state = parseState(reader, scenario, check);
   check.restore(state);
   const std::string hash = fmt::format("{:016x}", check.hash());
   if (reader.text("hash") != hash) {
     reader.fail("hash", fmt::format("must be that of the state, {}: it was changed", hash));
   }
+  checkSensorHash(reader, check);
   checkMotions(reader, check);
   return state;
 }

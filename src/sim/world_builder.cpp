@@ -8,6 +8,7 @@
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
+#include "hovercraft_sim/sim/cushion_builder.h"
 
 namespace hovercraft {
 namespace {
@@ -64,6 +65,26 @@ struct HullCorners {
   }
 };
 
+/// How the bodies of a world meet.
+WorldRules rulesOf(const WorldScenario& world) {
+  WorldRules rules;
+  rules.tolerance = world.tolerance;
+  rules.rest_speed = world.rest_speed;
+  const std::size_t count = world.materials.size();
+  rules.material_count = count;
+  rules.pairs.clear();
+  for (const MaterialScenario& a : world.materials) {
+    for (const MaterialScenario& b : world.materials) {
+      rules.pairs.push_back(combined(a.surface, b.surface));
+    }
+  }
+  for (const MaterialPairScenario& pair : world.material_pairs) {
+    rules.pairs[pair.first * count + pair.second] = pair.law;
+    rules.pairs[pair.second * count + pair.first] = pair.law;
+  }
+  return rules;
+}
+
 std::vector<Vector3> placedPoints(std::vector<Vector3> points, const Vector3& p,
                                   const Vector3& rpy) {
   const Matrix3 R = rotationFromRpy(rpy);
@@ -103,7 +124,7 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
                                 ? Mobility::planar(body.mass, body.I_BBo_B)
                                 : Mobility::spatial(body.mass, body.I_BBo_B);
   return {mobility, EngineGeometry(vehicle.engines, body.p_HB), vehicle.drag,
-          body.mass * scenario.gravity, scenario.wind};
+          body.mass * scenario.gravity, groundForcesOf(scenario, vehicle)};
 }
 
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
@@ -117,33 +138,8 @@ BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
   return mobility.stateOfMotion(vehicle.initial_p_WB, rotationFromRpy(vehicle.initial_rpy), twist);
 }
 
-World worldOf(const Scenario& scenario) {
+std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {
   const FloatingPointEnvironment environment;
-  const WorldScenario& world = *scenario.world;
-  WorldRules rules;
-  rules.integrator = scenario.integrator;
-  rules.step = scenario.stepSize();
-  rules.tolerance = world.tolerance;
-  rules.rest_speed = world.rest_speed;
-  const std::size_t count = world.materials.size();
-  rules.material_count = count;
-  rules.pairs.clear();
-  for (const MaterialScenario& a : world.materials) {
-    for (const MaterialScenario& b : world.materials) {
-      rules.pairs.push_back(combined(a.surface, b.surface));
-    }
-  }
-  for (const MaterialPairScenario& pair : world.material_pairs) {
-    rules.pairs[pair.first * count + pair.second] = pair.law;
-    rules.pairs[pair.second * count + pair.first] = pair.law;
-  }
-  std::vector<WorldBody> bodies;
-  for (const auto* list : {&scenario.vehicles, &world.bodies}) {
-    for (const VehicleScenario& body : *list) {
-      bodies.push_back(
-          {body.name, modelOf(scenario, body), hullOf(body), static_cast<int>(body.material)});
-    }
-  }
   std::vector<WorldObstacle> obstacles;
   for (const ObstacleScenario& obstacle : world.obstacles) {
     const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
@@ -151,7 +147,27 @@ World worldOf(const Scenario& scenario) {
     obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
                          static_cast<int>(obstacle.material)});
   }
-  return {std::move(rules), std::move(bodies), std::move(obstacles)};
+  return obstacles;
+}
+
+World worldOf(const Scenario& scenario) {
+  const FloatingPointEnvironment environment;
+  WorldRules rules = scenario.world ? rulesOf(*scenario.world) : WorldRules();
+  rules.bodies_meet = scenario.world.has_value();
+  rules.integrator = scenario.integrator;
+  rules.step = scenario.stepSize();
+  std::vector<WorldBody> bodies;
+  const auto add = [&](const VehicleScenario& body) {
+    bodies.push_back({body.name, modelOf(scenario, body),
+                      scenario.world ? std::optional(hullOf(body)) : std::nullopt,
+                      static_cast<int>(body.material)});
+  };
+  for (const VehicleScenario& vehicle : scenario.vehicles) add(vehicle);
+  if (scenario.world) {
+    for (const VehicleScenario& body : scenario.world->bodies) add(body);
+  }
+  return {std::move(rules), std::move(bodies),
+          scenario.world ? obstaclesOf(*scenario.world) : std::vector<WorldObstacle>()};
 }
 
 }  // namespace hovercraft

@@ -6,26 +6,11 @@
 #include "hovercraft_sim/collision/time_of_impact.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/index.h"
-#include "hovercraft_sim/world/world.h"
 
 namespace hovercraft {
-namespace {
-
-/// The thrusts at a share x of the step: the parabola through its start, middle and end, which is
-/// exact there and off by the cube of the step over the lag in between.
-Vector3 thrustAt(const ThrustCourse& course, double x) {
-  const double start = (1.0 - x) * (1.0 - 2.0 * x);
-  const double middle = 4.0 * x * (1.0 - x);
-  const double end = x * (2.0 * x - 1.0);
-  return (start * course.start + middle * course.middle) + end * course.end;
-}
-
-}  // namespace
-
-void Island::begin(const std::vector<std::int32_t>& bodies,
-                   const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
+void Island::begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
                    const std::vector<BodyState>& states, const std::vector<ContactMemory>& memory) {
-  s_.slots.resize(world_.bodies_.size());
+  s_.slots.resize(scene_.bodies().size());
   s_.members.resize(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     IslandMember& member = s_.members[k];
@@ -47,20 +32,20 @@ void Island::begin(const std::vector<std::int32_t>& bodies,
     link.memory = found ? *known : ContactMemory();
     link.memory.a = a;
     link.memory.b = b;
-    link.material = world_.rules_.pair(world_.materialOf(a), world_.materialOf(b));
+    link.material = scene_.lawOf(pairs[k]);
     link.impacts = 0;
     link.slot_a = s_.slots[at(a)];
-    link.slot_b = world_.isFixed(b) ? 0 : s_.slots[at(b)];
+    link.slot_b = scene_.isFixed(b) ? 0 : s_.slots[at(b)];
   }
 }
 
 const Pose& Island::poseOfIndex(std::int32_t index) const {
-  if (world_.isFixed(index)) return world_.obstacles_[at(index) - world_.bodies_.size()].X_WO;
+  if (scene_.isFixed(index)) return scene_.fixedPose(index);
   return s_.members[at(s_.slots[at(index)] - 1)].pose;
 }
 
 StepMotion Island::motionOfIndex(std::int32_t index) const {
-  if (!world_.isFixed(index)) return s_.members[at(s_.slots[at(index)] - 1)].motion;
+  if (!scene_.isFixed(index)) return s_.members[at(s_.slots[at(index)] - 1)].motion;
   const Pose& X_WO = poseOfIndex(index);
   StepMotion still;
   still.p_WB = X_WO.p_AB;
@@ -71,13 +56,13 @@ StepMotion Island::motionOfIndex(std::int32_t index) const {
 /// The approach that a pair may have and still not bounce, m/s.
 double Island::restSpeed(const IslandLink& link) const {
   if (plastic_ || link.impacts >= kMaxBounces) return std::numeric_limits<double>::infinity();
-  if (link.memory.resting) return world_.rules_.rest_speed;
-  return std::max(kStillSpeed, (1.0 - link.material.restitution) * world_.rules_.rest_speed);
+  if (link.memory.resting) return scene_.rules().rest_speed;
+  return std::max(kStillSpeed, (1.0 - link.material.restitution) * scene_.rules().rest_speed);
 }
 
 /// Closest features of every pair, and the points of those that touch.
 void Island::look(double left) {
-  const WorldRules& rules = world_.rules_;
+  const WorldRules& rules = scene_.rules();
   const double band = rules.tolerance + 2.0 * rules.rest_speed * left;
   for (IslandLink& link : s_.links) {
     const std::int32_t a = link.memory.a;
@@ -86,7 +71,7 @@ void Island::look(double left) {
     if (link.closest.distance > kLostContact * rules.tolerance) link.memory.resting = false;
     link.touching = link.closest.distance <= rules.tolerance;
     if (!link.touching) continue;
-    link.manifold = contactManifold(world_.hullOf(a), poseOfIndex(a), world_.hullOf(b),
+    link.manifold = contactManifold(scene_.hullOf(a), poseOfIndex(a), scene_.hullOf(b),
                                     poseOfIndex(b), link.closest, band);
   }
 }
@@ -95,7 +80,7 @@ void Island::look(double left) {
 /// tolerance, as their masses share them. All of it is undone if some pair would be left without a
 /// gap. @returns whether bodies were moved.
 bool Island::repair() {
-  const double tolerance = world_.rules_.tolerance;
+  const double tolerance = scene_.rules().tolerance;
   const double wanted = kRestGap * tolerance;
   double least = wanted;
   for (const IslandLink& link : s_.links) {
@@ -118,7 +103,7 @@ bool Island::repair() {
 
 /// @returns whether some pair was set apart.
 bool Island::repairSweep() {
-  const double tolerance = world_.rules_.tolerance;
+  const double tolerance = scene_.rules().tolerance;
   bool moved_any = false;
   for (IslandLink& link : s_.links) {
     const double gap = closestNow(link).distance;
@@ -131,7 +116,7 @@ bool Island::repairSweep() {
 ClosestFeatures Island::closestNow(IslandLink& link) {
   const std::int32_t a = link.memory.a;
   const std::int32_t b = link.memory.b;
-  link.closest = closestFeatures(world_.hullOf(a), poseOfIndex(a), world_.hullOf(b), poseOfIndex(b),
+  link.closest = closestFeatures(scene_.hullOf(a), poseOfIndex(a), scene_.hullOf(b), poseOfIndex(b),
                                  link.memory.features);
   return link.closest;
 }
@@ -139,7 +124,7 @@ ClosestFeatures Island::closestNow(IslandLink& link) {
 /// @param by m. @returns whether either body can move that way.
 bool Island::shiftApart(const IslandLink& link, double by) {
   const auto shifts =
-      world_.shiftsApart({link.memory.a, link.memory.b}, link.closest.nhat_AB_W, by, -1);
+      scene_.shiftsApart({link.memory.a, link.memory.b}, link.closest.nhat_AB_W, by, -1);
   if (!shifts) return false;
   const std::int32_t slots[2] = {link.slot_a, link.slot_b};
   for (std::size_t side = 0; side < 2; ++side) {
@@ -153,32 +138,14 @@ bool Island::shiftApart(const IslandLink& link, double by) {
 }
 
 BodyState Island::moved(const IslandMember& member, double from, double to,
-                        bool with_contact) const {
-  const double h = world_.rules_.step;
-  const BodyDrive& drive = drives_[at(member.index)];
-  ThrustCourse course = drive.thrusts;
-  if (from > 0.0 || to < h) {
-    course.start = thrustAt(drive.thrusts, from / h);
-    course.middle = thrustAt(drive.thrusts, 0.5 * (from + to) / h);
-    course.end = thrustAt(drive.thrusts, to / h);
-  }
-  ExternalLoad load = drive.load;
-  const bool pressed = with_contact && (squaredNorm(member.contact.force) > 0.0 ||
-                                        squaredNorm(member.contact.torque) > 0.0);
-  if (pressed) load.in_world = load.in_world + member.contact;
-  const DrivenHovercraft system = {world_.bodies_[at(member.index)].model, course,
-                                   drive.is_pushed || pressed ? &load : nullptr};
-  return std::visit(
-      [&](const auto& body) -> BodyState {
-        return integrationStep<decltype(body.orientation)>(world_.rules_.integrator, body, system,
-                                                           to - from);
-      },
-      member.state);
+                        const Wrench& contact) const {
+  return scene_.moved(at(member.index), member.state, inputs_[at(member.index)], {from, to},
+                      contact);
 }
 
 /// The earliest impact in a piece of `duration`. @param share of the distance that counts as one.
 bool Island::firstImpact(double duration, double share, double& time) const {
-  const double tolerance = kRestGap * world_.rules_.tolerance;
+  const double tolerance = kRestGap * scene_.rules().tolerance;
   bool any = false;
   time = duration;
   for (const IslandLink& link : s_.links) {
@@ -190,11 +157,11 @@ bool Island::firstImpact(double duration, double share, double& time) const {
     const StepMotion motion_a = motionOfIndex(a);
     const StepMotion motion_b = motionOfIndex(b);
     const ImpactSearch search = {time, within, ImpactMethod::kAdvance};
-    if (isClear(world_.hullOf(a), motion_a, world_.hullOf(b), motion_b, link.closest, search)) {
+    if (isClear(scene_.hullOf(a), motion_a, scene_.hullOf(b), motion_b, link.closest, search)) {
       continue;
     }
     const TimeOfImpact impact =
-        timeOfImpact(world_.hullOf(a), motion_a, world_.hullOf(b), motion_b, search);
+        timeOfImpact(scene_.hullOf(a), motion_a, scene_.hullOf(b), motion_b, search);
     if (impact.status == ImpactStatus::kNone || impact.time >= time) continue;
     any = true;
     time = impact.time;
@@ -205,15 +172,15 @@ bool Island::firstImpact(double duration, double share, double& time) const {
 
 /// Moves all bodies until the end of the step or the first impact. @returns the time then, s.
 double Island::advance(double now) {
-  const double h = world_.rules_.step;
+  const double h = scene_.rules().step;
   double to = h;
   double share = 1.0;
   for (int cut = 0; cut < kMaxCuts; ++cut) {
     const double duration = to - now;
     if (!(duration > 0.0)) return now;
     for (IslandMember& member : s_.members) {
-      const Mobility& mobility = world_.bodies_[at(member.index)].model.mobility;
-      member.end = moved(member, now, to, true);
+      const Mobility& mobility = scene_.mobilityOf(member.index);
+      member.end = moved(member, now, to, member.contact);
       StepMotion& motion = member.motion;
       const Vector3& p_end = positionOf(member.end);
       motion = motionBetween(member.pose.p_AB, orientationOf(member.state), p_end,
@@ -225,7 +192,7 @@ double Island::advance(double now) {
     double time = duration;
     if (!firstImpact(duration, share, time)) {
       for (IslandMember& member : s_.members) {
-        member.travelled += world_.travelOf(at(member.index), member.state, member.end, duration);
+        member.travelled += scene_.travelOf(at(member.index), member.state, member.end, duration);
         member.state = member.end;
         member.pose = poseOf(member.state);
       }
@@ -238,7 +205,7 @@ double Island::advance(double now) {
 }
 
 bool Island::run() {
-  const double h = world_.rules_.step;
+  const double h = scene_.rules().step;
   const int bound = kMaxEvents + kMaxEventsPerPair * static_cast<int>(s_.links.size());
   plastic_ = false;
   stuck_ = false;

@@ -5,7 +5,6 @@
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/world/island.h"
-#include "hovercraft_sim/world/world.h"
 
 /// What the bodies of an island do to each other: impacts, and the forces of resting contacts.
 
@@ -49,14 +48,13 @@ PairImpact sumOf(const IslandLink& link, const std::vector<ImpactPoint>& points)
 }
 
 /// Gives both bodies of a point its impulse.
-void applyToBoth(const ImpactPoint& point, const World& world, std::vector<IslandMember>& members) {
+void applyToBoth(const ImpactPoint& point, const Scene& scene, std::vector<IslandMember>& members) {
   const std::int32_t slots[2] = {point.a, point.b};
   for (int side = 0; side < 2; ++side) {
     if (slots[side] == 0) continue;
     IslandMember& member = members[at(slots[side] - 1)];
     const Vector3 impulse = (side == 0 ? -1.0 : 1.0) * point.impulse;
-    applyImpulse(member.state, world.bodies()[at(member.index)].model.mobility, impulse,
-                 point.p_WC);
+    applyImpulse(member.state, scene.mobilityOf(member.index), impulse, point.p_WC);
   }
 }
 
@@ -73,11 +71,11 @@ void pushBoth(const IslandLink& link, const Vector3& force, const Vector3& p_WC,
 }
 
 /// Velocity of a body's point at the start of the piece, m/s; 0 for what is fixed.
-Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC, const World& world,
+Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC, const Scene& scene,
                     const std::vector<IslandMember>& members) {
   if (slot == 0) return Vector3::Zero();
   const IslandMember& member = members[at(slot - 1)];
-  const Twist twist = twistOf(member.state, world.bodies()[at(member.index)].model.mobility);
+  const Twist twist = twistOf(member.state, scene.mobilityOf(member.index));
   return velocityOfPoint(twist, p_WC, member.pose.p_AB);
 }
 
@@ -108,7 +106,7 @@ void Island::addBodies(bool at_end) {
   s_.solver.clear();
   s_.solver.add(ContactBody());
   for (const IslandMember& member : s_.members) {
-    const Mobility& mobility = world_.bodies_[at(member.index)].model.mobility;
+    const Mobility& mobility = scene_.mobilityOf(member.index);
     s_.solver.add({member.pose.p_AB, mobility.inverseMass(),
                    mobility.inverseInertia(member.pose.R_AB),
                    twistOf(at_end ? member.end : member.state, mobility)});
@@ -124,7 +122,7 @@ void Island::strike(double now) {
     if (!link.touching) continue;
     for (int i = 0; i < link.manifold.count; ++i) {
       const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
-      if (contact.gap > world_.rules_.tolerance) continue;
+      if (contact.gap > scene_.rules().tolerance) continue;
       ImpactPoint point;
       point.a = link.slot_a;
       point.b = link.slot_b;
@@ -141,14 +139,14 @@ void Island::strike(double now) {
   if (!isStruck()) return;
   s_.impact.resolve(s_.solver, s_.impact_points, slowApproach());
   for (const ImpactPoint& point : s_.impact_points) {
-    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, world_, s_.members);
+    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, scene_, s_.members);
   }
   report(now);
 }
 
 /// The approach that a resting contact stops by itself, m/s.
 double Island::slowApproach() const {
-  return kRestApproach * kRestGap * world_.rules_.tolerance / world_.rules_.step;
+  return kRestApproach * kRestGap * scene_.rules().tolerance / scene_.rules().step;
 }
 
 /// Whether some pair that touches approaches faster than its resting contact stops by itself.
@@ -174,7 +172,7 @@ void Island::report(double now) {
     const PairImpact sum = sumOf(link, s_.impact_points);
     if (sum.weight == 0.0) continue;
     ++link.impacts;
-    if (!sum.bounced && sum.approach < world_.rules_.rest_speed) continue;  // comes to rest
+    if (!sum.bounced && sum.approach < scene_.rules().rest_speed) continue;  // comes to rest
     ContactRecord record;
     record.kind = sum.bounced ? ContactKind::kBounce : ContactKind::kStick;
     record.a = link.memory.a;
@@ -189,7 +187,7 @@ void Island::report(double now) {
 
 /// Asks the points of a pair to stay apart until the end of the piece. @returns whether it has any.
 bool Island::addRestPoints(IslandLink& link, double left) {
-  const WorldRules& rules = world_.rules_;
+  const WorldRules& rules = scene_.rules();
   link.first_point = s_.solver.pointCount();
   link.point_count = 0;
   if (!link.touching) return false;
@@ -197,11 +195,11 @@ bool Island::addRestPoints(IslandLink& link, double left) {
   const double wanted = kRestGap * rules.tolerance;
   UsedPoints used{};
   const Pose& X_WA = poseOfIndex(link.memory.a);
-  const double near = kKnownPoint * world_.hullOf(link.memory.a).data().radius;
+  const double near = kKnownPoint * scene_.hullOf(link.memory.a).data().radius;
   for (int i = 0; i < link.manifold.count; ++i) {
     const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
-    const Vector3 v = velocityNow(link.slot_b, contact.p_WC, world_, s_.members) -
-                      velocityNow(link.slot_a, contact.p_WC, world_, s_.members);
+    const Vector3 v = velocityNow(link.slot_b, contact.p_WC, scene_, s_.members) -
+                      velocityNow(link.slot_a, contact.p_WC, scene_, s_.members);
     const double speed = dot(link.manifold.nhat_AB_W, v);
     // What parts flies on its own; what comes fast is an impact, in its time.
     if (speed > still || (contact.gap > rules.tolerance && speed < -still)) continue;
@@ -229,13 +227,13 @@ bool Island::addRestPoints(IslandLink& link, double left) {
 
 /// The constant forces that hold touching bodies apart over the rest of the step.
 void Island::press(double now) {
-  const double left = world_.rules_.step - now;
+  const double left = scene_.rules().step - now;
   bool any_touch = false;
   for (const IslandLink& link : s_.links) any_touch = any_touch || link.touching;
   for (IslandMember& member : s_.members) {
     member.contact = Wrench();
     if (!any_touch) continue;
-    member.end = moved(member, now, world_.rules_.step, false);
+    member.end = moved(member, now, scene_.rules().step, Wrench());
   }
   if (!any_touch) {
     for (IslandLink& link : s_.links) link.memory.count = 0;
@@ -247,7 +245,7 @@ void Island::press(double now) {
   const auto points = static_cast<int>(s_.solver.pointCount());
   if (any) {
     s_.solver.solve({std::max(kMinRestSweeps, kMaxRestRelaxations / points), kLeastRestSweeps,
-                     kRestResidual * kRestGap * world_.rules_.tolerance / world_.rules_.step});
+                     kRestResidual * kRestGap * scene_.rules().tolerance / scene_.rules().step});
   }
   takeForces(now, left);
 }

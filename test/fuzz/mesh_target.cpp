@@ -17,7 +17,8 @@ void readAs(MeshFormat format, const std::string& input) {
   try {
     const LoadedMesh surface = parseSurface(input, format, Vector3::Ones(), "input");
     for (const auto& face : surface.mesh.faces) {
-      for (const int v : face) surface.mesh.vertices.at(static_cast<std::size_t>(v));
+      for (const int v : face)
+        static_cast<void>(surface.mesh.vertices.at(static_cast<std::size_t>(v)));
     }
     if (surface.mesh.vertices.size() <= kMostHullVertices) {
       polyhedronFromMesh(surface.mesh, NonConvexMesh::kTakeHull, "input");

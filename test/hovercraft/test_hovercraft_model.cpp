@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -27,9 +27,10 @@ Mobility generalMobility() {
   return Mobility::spatial(kMass, inertia);
 }
 
+const Environment kStillAir;
+
 HovercraftModel craft(const Mobility& mobility) {
-  return {mobility, EngineGeometry(skewEngines(), Vector3::Zero()), Drag(), Vector3::Zero(),
-          Vector3::Zero()};
+  return {mobility, EngineGeometry(skewEngines(), Vector3::Zero()), Drag(), Vector3::Zero()};
 }
 
 const Quaternion& someAttitude() {
@@ -46,7 +47,8 @@ RigidBodyState<Quaternion> moving(const HovercraftModel& model, const Vector3& v
 TEST(HovercraftModel, ThrustsActInBodyAxesWithForceAndMoment) {
   const HovercraftModel model = craft(generalMobility());
   const Vector3 thrusts(4.0, 1.0, 2.0);
-  const auto rate = model.derivative(moving(model, Vector3::Zero(), Vector3::Zero()), thrusts);
+  const auto rate =
+      model.derivative(moving(model, Vector3::Zero(), Vector3::Zero()), thrusts, kStillAir);
   Vector3 force = Vector3::Zero();
   Vector3 torque = Vector3::Zero();
   const Engines engines = skewEngines();
@@ -65,7 +67,7 @@ TEST(HovercraftModel, VelocitiesAreThoseOfTheMomenta) {
   const HovercraftModel model = craft(generalMobility());
   const Vector3 v_WB(1.0, -2.0, 3.0);
   const Vector3 w_WB(0.5, 0.7, -1.1);
-  const auto rate = model.derivative(moving(model, v_WB, w_WB), Vector3::Zero());
+  const auto rate = model.derivative(moving(model, v_WB, w_WB), Vector3::Zero(), kStillAir);
   EXPECT_LT(norm(rate.v_WB - v_WB), 10.0 * kRounding);
   const Quaternion expected = quaternionRateWorld(w_WB, someAttitude());
   EXPECT_LT(norm(rate.orientation_rate + (-1.0) * expected), 10.0 * kRounding);
@@ -81,7 +83,7 @@ TEST(HovercraftModel, DragActsAlongBodyAxes) {
   model.drag.angular_linear = {0.0, 0.0, 0.2};
   const Vector3 v_WB(1.0, -2.0, 0.5);
   const Vector3 w_WB(0.5, 0.7, -1.1);
-  const auto rate = model.derivative(moving(model, v_WB, w_WB), Vector3::Zero());
+  const auto rate = model.derivative(moving(model, v_WB, w_WB), Vector3::Zero(), kStillAir);
   const Vector3 y_W = rotate(someAttitude(), Vector3::UnitY());
   const Vector3 z_W = rotate(someAttitude(), Vector3::UnitZ());
   EXPECT_LT(norm(rate.force_W - (-3.0 * dot(v_WB, y_W)) * y_W), 20.0 * kRounding);
@@ -92,24 +94,26 @@ TEST(HovercraftModel, CraftThatDriftsWithTheAirFeelsNoDrag) {
   HovercraftModel model = craft(generalMobility());
   model.drag.linear = {1.0, 2.0, 3.0};
   model.drag.quadratic = {4.0, 5.0, 6.0};
-  model.wind_W = {3.0, -1.0, 0.5};
-  const auto drifting = model.derivative(moving(model, model.wind_W, Vector3::Zero()), {0, 0, 0});
+  const Environment windy = {{3.0, -1.0, 0.5}};
+  const auto drifting =
+      model.derivative(moving(model, windy.wind_W, Vector3::Zero()), {0, 0, 0}, windy);
   EXPECT_LT(norm(drifting.force_W), 20.0 * kRounding);
-  const auto resting = model.derivative(moving(model, Vector3::Zero(), Vector3::Zero()), {0, 0, 0});
-  EXPECT_GT(dot(resting.force_W, model.wind_W), 1.0);
+  const auto resting =
+      model.derivative(moving(model, Vector3::Zero(), Vector3::Zero()), {0, 0, 0}, windy);
+  EXPECT_GT(dot(resting.force_W, windy.wind_W), 1.0);
 }
 
 TEST(HovercraftModel, WeightActsInTheWorldAndAPlanarCraftDoesNotFeelIt) {
   HovercraftModel spatial = craft(generalMobility());
   spatial.weight_W = {0.0, 0.0, -19.62};
   const auto falling =
-      spatial.derivative(moving(spatial, Vector3::Zero(), Vector3::Zero()), {0, 0, 0});
+      spatial.derivative(moving(spatial, Vector3::Zero(), Vector3::Zero()), {0, 0, 0}, kStillAir);
   EXPECT_EQ(falling.force_W, spatial.weight_W);
   EXPECT_EQ(falling.torque_W, Vector3(0.0, 0.0, 0.0));
   HovercraftModel planar = craft(Mobility::planar(kMass, Matrix3::Identity()));
   planar.weight_W = spatial.weight_W;
   const RigidBodyState<Quaternion> rest;
-  EXPECT_EQ(planar.derivative(rest, {0, 0, 0}).force_W, Vector3(0.0, 0.0, 0.0));
+  EXPECT_EQ(planar.derivative(rest, {0, 0, 0}, kStillAir).force_W, Vector3(0.0, 0.0, 0.0));
 }
 
 // ---- measured order with lagging engines --------------------------------------------------------
@@ -133,7 +137,7 @@ RigidBodyState<Quaternion> spinUp(Integrator integrator, int steps) {
   model.drag.quadratic = {0.4, 0.9, 0.7};
   model.drag.angular_linear = {0.05, 0.06, 0.07};
   model.drag.angular_quadratic = {0.02, 0.03, 0.04};
-  model.wind_W = {-6.0, 5.0, 4.0};
+  const Environment environment = {{-6.0, 5.0, 4.0}};
   const EngineDynamics dynamics(engines, step_ns);
   EngineStates states;
   states[0].commanded = 4.0;
@@ -142,7 +146,8 @@ RigidBodyState<Quaternion> spinUp(Integrator integrator, int steps) {
   RigidBodyState<Quaternion> body = moving(model, {1.0, 0.5, -0.3}, {0.6, 1.0, 0.8});
   for (Tick tick = 0; tick < steps; ++tick) {
     const ThrustCourse thrusts = dynamics.course(states, tick);
-    body = integrationStep(integrator, body, DrivenHovercraft{model, thrusts}, toSeconds(step_ns));
+    const DrivenBody system = {model, thrusts, environment};
+    body = integrationStep(integrator, body, system, toSeconds(step_ns));
     for (int i = 0; i < kEngineCount; ++i) {
       states[static_cast<std::size_t>(i)].thrust = thrusts.end[i];
     }
@@ -158,7 +163,7 @@ double distance(const RigidBodyState<Quaternion>& a, const RigidBodyState<Quater
 
 // Each stage sees the thrust at its own time: the order survives. Reference: RK4 with steps 50
 // times shorter than those of its finer run.
-TEST(DrivenHovercraft, EveryIntegratorKeepsItsOrderWithLaggingEngines) {
+TEST(DrivenBody, EveryIntegratorKeepsItsOrderWithLaggingEngines) {
   const auto reference = spinUp(Integrator::kRungeKutta4, 2000);
   constexpr std::array<int, 4> steps = {2000, 2000, 500, 20};
   for (std::size_t i = 0; i < kIntegrators.size(); ++i) {

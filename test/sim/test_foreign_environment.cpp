@@ -341,7 +341,8 @@ TEST(ForeignEnvironment, TheStepOfACraftIsTheSame) {
     const EngineDynamics engines(craft.engines, scenario.step_ns);
     const ThrustCourse course = {{0.1, 0.2, 0.3}, {0.1, 0.2, 0.4}, {0.1, 0.2, 0.5}};
     const auto y = std::get<RigidBodyState<Matrix3>>(initialState(scenario, craft, model.mobility));
-    const DrivenHovercraft system = {model, course};
+    const Environment surroundings = {scenario.wind};
+    const DrivenBody system = {model, course, surroundings};
     const auto next = integrationStep(Integrator::kRungeKutta4, y, system, 0.002);
     return bitsOf(next.p_WB) + bitsOf(next.orientation) + bitsOf(next.momentum_W);
   });

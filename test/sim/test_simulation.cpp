@@ -85,7 +85,7 @@ TEST(Simulation, CommandsTakeEffectAtTheirTick) {
   }
   EXPECT_EQ(applied, std::vector<Tick>{3});
   EXPECT_EQ(simulation.motion(0).momentum_W.x(), 4.5 * 0.002);
-  EXPECT_EQ(simulation.state(0).engines[0].command_tick, 3);
+  EXPECT_EQ(simulation.state().engines[0][0].command_tick, 3);
 }
 
 TEST(Simulation, OfTwoCommandsOfOneTickTheLaterHolds) {
@@ -106,8 +106,8 @@ TEST(Simulation, ACommandForOneEngineLeavesTheOthersAlone) {
   EXPECT_EQ(simulation.engineReport(0, 0).commanded, 1.0);
   EXPECT_EQ(simulation.engineReport(0, 1).commanded, 0.5);
   EXPECT_EQ(simulation.engineReport(0, 2).commanded, 1.2);
-  EXPECT_EQ(simulation.state(0).engines[0].command_tick, 0);
-  EXPECT_EQ(simulation.state(0).engines[1].command_tick, 1);
+  EXPECT_EQ(simulation.state().engines[0][0].command_tick, 0);
+  EXPECT_EQ(simulation.state().engines[0][1].command_tick, 1);
 }
 
 TEST(Simulation, BadCommandsAreOurOwnMistake) {

@@ -164,19 +164,16 @@ Fields fieldsOf(const Simulation& simulation) {
   fields.whole(
       "tick", [](auto& s) -> auto& { return s.tick; });
   fields.body(
-      "craft", [](auto& s) -> auto& { return s.vehicles[0].body; }, is_quaternion);
+      "craft", [](auto& s) -> auto& { return s.bodies[0]; }, is_quaternion);
   fields.body(
       "crate", [](auto& s) -> auto& { return s.bodies[0]; }, is_quaternion);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = fmt::format("engine[{}]", i);
     fields.number(name + ".commanded",
-                  [i](auto& s) -> double& { return s.vehicles[0].engines[i].commanded; });
-    fields.number(name + ".thrust",
-                  [i](auto& s) -> double& { return s.vehicles[0].engines[i].thrust; });
+                  [i](auto& s) -> double& { return s.engines[0][i].commanded; });
+    fields.number(name + ".thrust", [i](auto& s) -> double& { return s.engines[0][i].thrust; });
     fields.whole(
-        name + ".command_tick", [i](auto& s) -> auto& {
-          return s.vehicles[0].engines[i].command_tick;
-        });
+        name + ".command_tick", [i](auto& s) -> auto& { return s.engines[0][i].command_tick; });
   }
   fields.vector("force", [](auto& s) -> Vector3& { return s.wrenches[0].wrench.force; });
   fields.vector("torque", [](auto& s) -> Vector3& { return s.wrenches[0].wrench.torque; });
@@ -333,7 +330,7 @@ class SnapshotRules : public ::testing::Test {
     return outcomeOf(scenario_, textOf(scenario_, state));
   }
   static RigidBodyState<Quaternion>& craft(SimulationState& state) {
-    return std::get<RigidBodyState<Quaternion>>(state.vehicles[0].body);
+    return std::get<RigidBodyState<Quaternion>>(state.bodies[0]);
   }
 
   Scenario scenario_ = parsed(kOnTheFloor);
@@ -351,7 +348,7 @@ TEST_F(SnapshotRules, AnOrientationIsARotation) {
             "1e-12");
   const Scenario plane = parsed(kInThePlane);
   SimulationState state = pressing(plane).state();
-  auto& body = std::get<RigidBodyState<Matrix3>>(state.vehicles[0].body);
+  auto& body = std::get<RigidBodyState<Matrix3>>(state.bodies[0]);
   body.orientation.col(0) *= -1.0;  // a mirror
   EXPECT_EQ(outcomeOf(plane, textOf(plane, state)),
             "refused: snap.yaml: vehicles.craft.body.x_axis: the three axes must be those of a "
@@ -363,7 +360,7 @@ TEST_F(SnapshotRules, WhatThePlanarModelCannotDoIsRefused) {
   const std::string rule = "does not fit model: planar, which moves in x, y and yaw only";
   const auto told_in_plane = [&](const auto& change) {
     SimulationState state = pressing(plane).state();
-    change(std::get<RigidBodyState<Matrix3>>(state.vehicles[0].body));
+    change(std::get<RigidBodyState<Matrix3>>(state.bodies[0]));
     return outcomeOf(plane, textOf(plane, state));
   };
   EXPECT_EQ(told_in_plane([](auto& body) { body.momentum_W.z() = 1e-9; }),
@@ -393,14 +390,14 @@ TEST_F(SnapshotRules, BodiesDoNotOverlap) {
 TEST_F(SnapshotRules, TicksFitTheTimeThatTheyMean) {
   EXPECT_EQ(told([](auto& s) { s.tick = kLargest; }),
             "refused: snap.yaml: tick: must be 0 to 2305843009213");
-  EXPECT_EQ(told([](auto& s) { s.vehicles[0].engines[0].command_tick = s.tick + 1; }),
+  EXPECT_EQ(told([](auto& s) { s.engines[0][0].command_tick = s.tick + 1; }),
             "refused: snap.yaml: vehicles.craft.rear.command_tick: must be -1 to 150");
   EXPECT_EQ(told([](auto& s) { s.wrenches[0].end_tick = -1; }),
             "refused: snap.yaml: wrenches[0].end_tick: must be 0 to 9223372036854775807");
 }
 
 TEST_F(SnapshotRules, AThrustIsOneThatTheEngineHas) {
-  EXPECT_EQ(told([](auto& s) { s.vehicles[0].engines[1].thrust = 1.6; }),
+  EXPECT_EQ(told([](auto& s) { s.engines[0][1].thrust = 1.6; }),
             "refused: snap.yaml: vehicles.craft.left.thrust: must be within the limits of the "
             "engine");
 }

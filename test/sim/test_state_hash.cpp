@@ -27,7 +27,8 @@ TEST(StateHash, IsFnv1aOfTheBytesLowestFirst) {
   EXPECT_EQ(of_double.value(), of_bits.value());
 }
 
-std::uint64_t hashOf(const VehicleState& state) {
+template <class State>
+std::uint64_t hashOf(const State& state) {
   StateHash hash;
   hash.add(state);
   return hash.value();
@@ -47,11 +48,11 @@ TEST(StateHash, ChangesWithTheLastBitOfEachFieldOfAQuaternionState) {
   std::vector<double*> numbers = numbersOf(body);
   numbers.push_back(&body.orientation.s);
   for (int i = 0; i < 3; ++i) numbers.push_back(&body.orientation.v[i]);
-  const std::uint64_t before = hashOf({body, {}});
+  const std::uint64_t before = hashOf(BodyState(body));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const double kept = *numbers[i];
     *numbers[i] = std::nextafter(kept, 2.0);
-    EXPECT_NE(hashOf({body, {}}), before) << "number " << i;
+    EXPECT_NE(hashOf(BodyState(body)), before) << "number " << i;
     *numbers[i] = kept;
   }
 }
@@ -61,27 +62,27 @@ TEST(StateHash, ChangesWithTheLastBitOfEachFieldOfAMatrixState) {
   body.orientation = Matrix3::Identity();
   std::vector<double*> numbers = numbersOf(body);
   for (int i = 0; i < 9; ++i) numbers.push_back(body.orientation.data() + i);
-  const std::uint64_t before = hashOf({body, {}});
+  const std::uint64_t before = hashOf(BodyState(body));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     const double kept = *numbers[i];
     *numbers[i] = std::nextafter(kept, 2.0);
-    EXPECT_NE(hashOf({body, {}}), before) << "number " << i;
+    EXPECT_NE(hashOf(BodyState(body)), before) << "number " << i;
     *numbers[i] = kept;
   }
 }
 
 TEST(StateHash, ChangesWithEachFieldOfAnEngine) {
-  const VehicleState state = {RigidBodyState<Quaternion>(), {}};
-  for (std::size_t i = 0; i < state.engines.size(); ++i) {
-    VehicleState other = state;
-    other.engines[i].commanded = 5e-324;
-    EXPECT_NE(hashOf(other), hashOf(state)) << kEngineNames[i];
-    other = state;
-    other.engines[i].thrust = 5e-324;
-    EXPECT_NE(hashOf(other), hashOf(state)) << kEngineNames[i];
-    other = state;
-    other.engines[i].command_tick = 0;
-    EXPECT_NE(hashOf(other), hashOf(state)) << kEngineNames[i];
+  const EngineStates engines;
+  for (std::size_t i = 0; i < engines.size(); ++i) {
+    EngineStates other = engines;
+    other[i].commanded = 5e-324;
+    EXPECT_NE(hashOf(other), hashOf(engines)) << kEngineNames[i];
+    other = engines;
+    other[i].thrust = 5e-324;
+    EXPECT_NE(hashOf(other), hashOf(engines)) << kEngineNames[i];
+    other = engines;
+    other[i].command_tick = 0;
+    EXPECT_NE(hashOf(other), hashOf(engines)) << kEngineNames[i];
   }
 }
 

@@ -206,7 +206,7 @@ void expectNoOverlap(const std::string& name, const Vector3& thrusts) {
   double least = 1.0;
   for (int i = 0; i < 4000; ++i) {
     simulation.step();
-    least = std::min(least, simulation.world()->leastGap(simulation.worldStates()));
+    least = std::min(least, simulation.world()->leastGap(simulation.state().bodies));
   }
   EXPECT_GT(least, -simulation.scenario().world->tolerance);
   EXPECT_GT(contacts, 0);

@@ -28,7 +28,7 @@ inline const std::vector<BrokenRule> kBrokenKeys = {
      "seed, vehicles, world"},
     {"UnknownVehicleKey", "    mass: 5.5", "    weight: 5.5",
      "vehicles.alpha.weight = 5.5: unknown key; known here: mass, inertia, center_of_mass, parts, "
-     "engines, drag, hull, material, visual, initial"},
+     "engines, drag, hull, material, visual, initial, sensors, tf"},
     {"UnknownEngine", "      left: {", "      port: {",
      "vehicles.alpha.engines.port = {position: [0.2, 0.15, 0.05], direction: [0, -1, 0], "
      "min_thrust: 0, max_thrust: ...: unknown key; known here: rear, left, right"},

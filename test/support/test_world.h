@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "hovercraft_sim/body/mass_properties.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 #include "hovercraft_sim/world/world.h"
@@ -36,11 +38,11 @@ class TestWorld {
     const Mobility mobility = planar ? Mobility::planar(body.mass, body.I_BBo_B)
                                      : Mobility::spatial(body.mass, body.I_BBo_B);
     const std::array<EngineParameters, kEngineCount> engines{};
-    bodies_.push_back({"body" + std::to_string(100 + bodies_.size()),
-                       {mobility, EngineGeometry(engines, Vector3::Zero()), Drag(),
-                        body.mass * gravity, Vector3::Zero()},
-                       hull,
-                       0});
+    bodies_.push_back(
+        {"body" + std::to_string(100 + bodies_.size()),
+         {mobility, EngineGeometry(engines, Vector3::Zero()), Drag(), body.mass * gravity},
+         hull,
+         0});
     states.push_back(mobility.stateOfMotion(p_WB, quaternionFromRpy(rpy), twist));
     return states.size() - 1;
   }
@@ -67,14 +69,18 @@ class TestWorld {
     if (worlds_.empty()) {
       worlds_.emplace_back(rules, bodies_, obstacles_);
       worlds_.back().partTouching(states);
-      drives.resize(states.size());
+      inputs.resize(states.size());
     }
     return worlds_.back();
   }
 
   void step(int count = 1) {
     for (int i = 0; i < count; ++i) {
-      world().step(drives, states, memory, records);
+      World& stepped = world();
+      EXPECT_EQ(stepped.step(inputs, states, memory, result_), World::kNone);
+      states.swap(result_.states);
+      memory.swap(result_.memory);
+      records.insert(records.end(), result_.records.begin(), result_.records.end());
       if (watch) least_gap = std::min(least_gap, world().leastGap(states));
     }
   }
@@ -90,13 +96,14 @@ class TestWorld {
   }
 
   std::vector<BodyState> states;
-  std::vector<BodyDrive> drives;
+  std::vector<StepInputs> inputs;
   std::vector<ContactMemory> memory;
   std::vector<ContactRecord> records;
   double least_gap = std::numeric_limits<double>::infinity();
   bool watch = true;
 
  private:
+  StepResult result_;
   std::vector<WorldBody> bodies_;
   std::vector<WorldObstacle> obstacles_;
   std::vector<World> worlds_;  // none or one

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "hovercraft_sim/body/steppers.h"
-#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/state_hash.h"
@@ -34,11 +34,11 @@ template <class Orientation>
 void keepInstances() {
   using State = RigidBodyState<Orientation>;
   using Rate = StateDerivative<Orientation>;
-  keep(&integrationStep<Orientation, DrivenHovercraft>);
-  keep(&eulerStep<Orientation, DrivenHovercraft>);
-  keep(&semiImplicitEulerStep<Orientation, DrivenHovercraft>);
-  keep(&heunStep<Orientation, DrivenHovercraft>);
-  keep(&rungeKutta4Step<Orientation, DrivenHovercraft>);
+  keep(&integrationStep<Orientation, DrivenBody>);
+  keep(&eulerStep<Orientation, DrivenBody>);
+  keep(&semiImplicitEulerStep<Orientation, DrivenBody>);
+  keep(&heunStep<Orientation, DrivenBody>);
+  keep(&rungeKutta4Step<Orientation, DrivenBody>);
   keep(&moved<Orientation>);
   keep(static_cast<Rate (*)(const Rate&, const Rate&)>(&operator+<Orientation>));
   keep(static_cast<double (*)(const State&, const Mobility&)>(&kineticEnergy<Orientation>));
@@ -73,7 +73,8 @@ bool movesAsInSimulation(Scenario scenario) {
   const HovercraftModel model = modelOf(scenario, craft);
   auto body = std::get<RigidBodyState<Orientation>>(initialState(scenario, craft, model.mobility));
   const ThrustCourse course = {thrusts, thrusts, thrusts};
-  const DrivenHovercraft system = {model, course};
+  const Environment environment = {scenario.wind};
+  const DrivenBody system = {model, course, environment};
   for (Tick tick = 0; tick < kTicks; ++tick) {
     body = integrationStep(scenario.integrator, body, system, scenario.stepSize());
     simulation.step();
@@ -81,7 +82,7 @@ bool movesAsInSimulation(Scenario scenario) {
   StateHash by_itself;
   by_itself.add(BodyState(body));
   StateHash simulated;
-  simulated.add(simulation.state(0).body);
+  simulated.add(simulation.state().bodies.front());
   if (by_itself.value() == simulated.value()) return true;
   std::cout << "DIFFERENT " << craft.name << ": integrationStep() and Simulation part\n";
   return false;

@@ -149,8 +149,8 @@ struct AtTheWall : TestWorld {
     world();
   }
   void push(const Vector3& force) {
-    drives[0].load.in_world.force = force;
-    drives[0].is_pushed = true;
+    inputs[0].load.in_world.force = force;
+    inputs[0].is_loaded = true;
   }
 };
 

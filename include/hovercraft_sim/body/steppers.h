@@ -19,8 +19,8 @@
 /// (-march=native, -march=x86-64-v3, -mfma, -mavx512f), with -fno-tree-slp-vectorize: g++ 12 forms
 /// fused multiply-adds when it vectorises straight-line code, in spite of -ffp-contract=off. With
 /// other options a step is as exact, and its last bits are others. What Simulation computes does
-/// not depend on any of this, nor does integrationStep() of a DrivenHovercraft
-/// (hovercraft_model.h): both are compiled into the library.
+/// not depend on any of this, nor does integrationStep() of a DrivenBody
+/// (step_inputs.h): both are compiled into the library.
 ///
 /// gnu::flatten has the compiler inline the stages, derivative and all: the slopes stay in
 /// registers, and a step takes a quarter less time (bench/README.md). A compiler that does not know
@@ -98,7 +98,7 @@ template <class Orientation, class System>
 RigidBodyState<Orientation> integrationStep(Integrator integrator,
                                             const RigidBodyState<Orientation>& y, const System& f,
                                             double h) {
-  const auto next = [&] {
+  auto next = [&] {
     switch (integrator) {
       case Integrator::kEuler:
         return eulerStep(y, f, h);
@@ -112,7 +112,8 @@ RigidBodyState<Orientation> integrationStep(Integrator integrator,
     demand(false, "unknown integrator");
     return y;
   }();
-  return {next.p_WB, renormalized(next.orientation), next.momentum_W, next.angular_momentum_W};
+  next.orientation = renormalized(next.orientation);
+  return next;
 }
 
 }  // namespace hovercraft

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/body/steppers.h"
@@ -40,11 +42,24 @@ struct EngineState {
 };
 using EngineStates = std::array<EngineState, kEngineCount>;
 
-/// The thrusts (rear, left, right; N) at the stages of one step.
+/// The thrusts (rear, left, right; N) over one step: at its stages, and in between.
 struct ThrustCourse {
   Vector3 start;
   Vector3 middle;
   Vector3 end;
+
+  /// At a share x of the step, 0 to 1: the parabola through its start, middle and end, which is
+  /// exact there and off by the cube of the step over the lag in between.
+  Vector3 at(double x) const {
+    const double at_start = (1.0 - x) * (1.0 - 2.0 * x);
+    const double at_middle = 4.0 * x * (1.0 - x);
+    const double at_end = x * (2.0 * x - 1.0);
+    return (at_start * start + at_middle * middle) + at_end * end;
+  }
+  /// Over the piece from `from` to `to` of a step of h, all in s.
+  ThrustCourse piece(double from, double to, double h) const {
+    return {at(from / h), at(0.5 * (from + to) / h), at(to / h)};
+  }
 
   const Vector3& at(Stage stage) const {
     if (stage == Stage::kStart) return start;
@@ -67,18 +82,22 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
 
   /// The last command is as old as the time-out or older.
   bool isTimedOut(int engine, const EngineState& state, Tick tick) const {
-    const std::int64_t timeout_ns = parameters_[static_cast<std::size_t>(engine)].timeout_ns;
-    return timeout_ns > 0 && commandAge(state, tick) >= timeout_ns;
+    return state.command_tick != EngineState::kNever &&
+           tick - state.command_tick >= rules_[static_cast<std::size_t>(engine)].timeout_ticks;
   }
 
   /// The last command lies beyond the engine's limits.
   bool isSaturated(int engine, const EngineState& state) const {
-    const auto& limits = parameters_[static_cast<std::size_t>(engine)];
+    const Rule& limits = rules_[static_cast<std::size_t>(engine)];
     return state.commanded < limits.min_thrust || state.commanded > limits.max_thrust;
   }
 
   /// The thrust that the engine strives for in the step that begins at `tick`, N.
-  double demandedThrust(int engine, const EngineState& state, Tick tick) const;
+  double demandedThrust(int engine, const EngineState& state, Tick tick) const {
+    if (isTimedOut(engine, state, tick)) return 0.0;
+    const Rule& limits = rules_[static_cast<std::size_t>(engine)];
+    return std::clamp(state.commanded, limits.min_thrust, limits.max_thrust);
+  }
 
   /// Thrusts in the step that begins at `tick`. Without lag the thrust is the demand from the start
   /// of the step on; with lag it is the exact solution of T' = (demand - T)/time_constant at each
@@ -86,11 +105,18 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
   ThrustCourse course(const EngineStates& states, Tick tick) const;
 
  private:
-  std::array<EngineParameters, kEngineCount> parameters_;
+  /// What a step needs of an engine.
+  struct Rule {
+    double min_thrust = 0.0;                                // N
+    double max_thrust = 0.0;                                // N
+    double half_decay = 0.0;                                // exp(-h/2τ); 0 without lag
+    double full_decay = 0.0;                                // exp(-h/τ)
+    Tick timeout_ticks = std::numeric_limits<Tick>::max();  // whole steps, rounded up; never
+    bool lags = false;
+  };
+
   std::int64_t step_ns_;
-  // exp(-h/2τ) and exp(-h/τ) of each engine; 0 without lag.
-  Vector3 half_decay_ = Vector3::Zero();
-  Vector3 full_decay_ = Vector3::Zero();
+  std::array<Rule, kEngineCount> rules_;
 };
 
 /// From three thrusts to the wrench about the centre of mass: (33) to (37) as two 3×3 matrices.

@@ -34,10 +34,13 @@ class StateHash {
   void add(const Matrix3& R) {
     for (int column = 0; column < 3; ++column) add(Vector3(R.col(column)));
   }
-  /// Position, orientation, momenta; then of each engine: command, thrust, tick of the command.
-  void add(const VehicleState& state) {
-    add(state.body);
-    for (const EngineState& engine : state.engines) {
+  /// Position, orientation, momenta.
+  void add(const BodyState& state) {
+    std::visit([this](const auto& body) { addBody(body); }, state);
+  }
+  /// Of each engine: command, thrust, tick of the command.
+  void add(const EngineStates& engines) {
+    for (const EngineState& engine : engines) {
       add(engine.commanded);
       add(engine.thrust);
       add(engine.command_tick);
@@ -51,11 +54,6 @@ class StateHash {
     add(external.wrench.force);
     add(external.wrench.torque);
     add(external.end_tick);
-  }
-
-  /// A loose body: as the body of a vehicle.
-  void add(const BodyState& state) {
-    std::visit([this](const auto& body) { addBody(body); }, state);
   }
 
   /// Both bodies, features and hints, whether it rests; number of points, then point and force of
@@ -74,6 +72,17 @@ class StateHash {
     for (int i = 0; i < contact.count; ++i) {
       add(contact.p_AC[static_cast<std::size_t>(i)]);
       add(contact.force_B_W[static_cast<std::size_t>(i)]);
+    }
+  }
+
+  /// A sensor: its memory; number of samples on their way, then tick and values of each.
+  void add(const SensorState& sensor) {
+    for (const double number : sensor.memory) add(number);
+    add(static_cast<std::uint64_t>(sensor.pending.size()));
+    for (std::size_t i = 0; i < sensor.pending.size(); ++i) {
+      add(sensor.pending.tick(i));
+      const double* const values = sensor.pending.values(i);
+      for (std::size_t k = 0; k < sensor.pending.width(); ++k) add(values[k]);
     }
   }
 

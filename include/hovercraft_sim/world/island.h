@@ -1,16 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "hovercraft_sim/contact/contact_solver.h"
 #include "hovercraft_sim/contact/impact.h"
+#include "hovercraft_sim/world/scene.h"
 #include "hovercraft_sim/world/world_types.h"
 
 namespace hovercraft {
-
-class World;
 
 /// A pair of bodies of the island.
 struct IslandLink {
@@ -52,13 +50,12 @@ struct IslandScratch {
 /// warmed up.
 class Island {
  public:
-  Island(const World& world, const std::vector<BodyDrive>& drives, IslandScratch& scratch,
+  Island(const Scene& scene, const std::vector<StepInputs>& inputs, IslandScratch& scratch,
          std::vector<ContactRecord>& records)
-      : world_(world), drives_(drives), s_(scratch), records_(records) {}
+      : scene_(scene), inputs_(inputs), s_(scratch), records_(records) {}
 
   /// @param bodies and pairs of the group, ascending. @param memory ascending.
-  void begin(const std::vector<std::int32_t>& bodies,
-             const std::vector<std::pair<std::int32_t, std::int32_t>>& pairs,
+  void begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
              const std::vector<BodyState>& states, const std::vector<ContactMemory>& memory);
   /// Runs the events of the step. @returns false if their bound cut off the rest of it.
   bool run();
@@ -78,14 +75,14 @@ class Island {
   void takeForces(double now, double left);
   double advance(double now);
   bool firstImpact(double duration, double share, double& time) const;
-  BodyState moved(const IslandMember& member, double from, double to, bool with_contact) const;
+  BodyState moved(const IslandMember& member, double from, double to, const Wrench& contact) const;
   double restSpeed(const IslandLink& link) const;
   const Pose& poseOfIndex(std::int32_t index) const;
   StepMotion motionOfIndex(std::int32_t index) const;
   void addBodies(bool at_end);
 
-  const World& world_;
-  const std::vector<BodyDrive>& drives_;
+  const Scene& scene_;
+  const std::vector<StepInputs>& inputs_;
   IslandScratch& s_;
   std::vector<ContactRecord>& records_;
   bool stuck_ = false;    // the last piece had no length

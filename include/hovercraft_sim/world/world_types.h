@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,8 @@ namespace hovercraft {
 struct WorldBody {
   std::string name;
   HovercraftModel model;
-  ConvexPolyhedron hull;  // in B
-  int material = 0;       // index into WorldRules
+  std::optional<ConvexPolyhedron> hull;  // in B; none where bodies do not meet
+  int material = 0;                      // index into WorldRules
 };
 
 /// A body that never moves.
@@ -35,6 +36,7 @@ struct WorldObstacle {
 struct WorldRules {
   Integrator integrator = Integrator::kHeun;
   double step = 0.0;         // s
+  bool bodies_meet = true;   // else they pass through each other
   double tolerance = 1e-6;   // m: bodies within it touch; no state overlaps by more
   double rest_speed = 0.01;  // m/s: a slower approach does not bounce, in the share (1 - e)
   std::size_t material_count = 1;
@@ -43,13 +45,6 @@ struct WorldRules {
   const ContactMaterial& pair(int a, int b) const {
     return pairs[static_cast<std::size_t>(a) * material_count + static_cast<std::size_t>(b)];
   }
-};
-
-/// What moves one body during a step besides contact.
-struct BodyDrive {
-  ThrustCourse thrusts{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};
-  ExternalLoad load;
-  bool is_pushed = false;
 };
 
 /// What a pair that is near keeps from step to step; it determines the future, as the solver starts

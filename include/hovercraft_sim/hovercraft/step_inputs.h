@@ -1,0 +1,71 @@
+#pragma once
+
+#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/body/steppers.h"
+#include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/hovercraft/environment.h"
+#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/math/vector.h"
+
+namespace hovercraft {
+
+/// What pushes a body from outside during one step, constant in the frame that it is given in.
+struct ExternalLoad {
+  Wrench in_world;  // N and N m about the centre of mass, in W
+  Wrench in_body;   // likewise, in B: turns with the body
+};
+
+/// All that determines the motion of one body in a step besides its state and contact: the same for
+/// a craft and for a loose body, whose engines have no thrust.
+struct StepInputs {
+  ThrustCourse thrusts{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};  // of the whole step
+  ExternalLoad load;
+  bool is_loaded = false;  // else `load` counts for nothing
+  Environment environment;
+};
+
+/// A piece of a step, s from its start; contact cuts a step at every impact.
+struct StepPiece {
+  double from = 0.0;
+  double to = 0.0;
+};
+
+/// One body during one piece of a step: the system that a stepper integrates.
+struct DrivenBody {
+  const HovercraftModel& model;
+  const ThrustCourse& thrusts;  // at the start, middle and end of the piece
+  const Environment& environment;
+  const ExternalLoad* load = nullptr;  // none
+
+  template <class Orientation>
+  StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
+                                          Stage stage) const {
+    StateDerivative<Orientation> rate = model.derivative(state, thrusts.at(stage), environment);
+    if (load != nullptr) {
+      const Matrix3 R_WB = rotationMatrix(state.orientation);
+      const Wrench pushed =
+          model.mobility.project({load->in_world.force + times(R_WB, load->in_body.force),
+                                  load->in_world.torque + times(R_WB, load->in_body.torque)});
+      rate.force_W += pushed.force;
+      rate.torque_W += pushed.torque;
+    }
+    return rate;
+  }
+  template <class Orientation>
+  Twist twist(const RigidBodyState<Orientation>& state) const {
+    return model.mobility.twist(state);
+  }
+};
+
+/// integrationStep() of a body, which Simulation makes: a function of the library, so that a
+/// program gets its bits whatever the program itself was compiled with.
+/// @param h s. The floating-point environment is that of IEEE 754 meanwhile.
+HOVERCRAFT_PUBLIC RigidBodyState<Quaternion> integrationStep(Integrator integrator,
+                                                             const RigidBodyState<Quaternion>& y,
+                                                             const DrivenBody& f, double h);
+HOVERCRAFT_PUBLIC RigidBodyState<Matrix3> integrationStep(Integrator integrator,
+                                                          const RigidBodyState<Matrix3>& y,
+                                                          const DrivenBody& f, double h);
+
+}  // namespace hovercraft

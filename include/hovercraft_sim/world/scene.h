@@ -1,0 +1,92 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hovercraft_sim/collision/motion.h"
+#include "hovercraft_sim/hovercraft/step_inputs.h"
+#include "hovercraft_sim/world/world_types.h"
+
+namespace hovercraft {
+
+/// Two things of a scene by their indices, the first a body.
+using ScenePair = std::pair<std::int32_t, std::int32_t>;
+
+/// What does not change during a run: which bodies move, which obstacles stand, and how they meet.
+/// One index counts both, bodies first.
+class Scene {
+ public:
+  Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles);
+
+  const WorldRules& rules() const { return rules_; }
+  const std::vector<WorldBody>& bodies() const { return bodies_; }
+  const std::vector<WorldObstacle>& obstacles() const { return obstacles_; }
+
+  bool isFixed(std::int32_t index) const {
+    return static_cast<std::size_t>(index) >= bodies_.size();
+  }
+  const std::string& nameOf(std::int32_t index) const;
+  /// In the body's frame B. Only where bodies meet.
+  const ConvexPolyhedron& hullOf(std::int32_t index) const;
+  int materialOf(std::int32_t index) const;
+  const ContactMaterial& lawOf(const ScenePair& pair) const {
+    return rules_.pair(materialOf(pair.first), materialOf(pair.second));
+  }
+  const Mobility& mobilityOf(std::int32_t body) const {
+    return bodies_[static_cast<std::size_t>(body)].model.mobility;
+  }
+  /// Of an obstacle.
+  const Pose& fixedPose(std::int32_t index) const {
+    return obstacles_[static_cast<std::size_t>(index) - bodies_.size()].X_WO;
+  }
+  const AxisAlignedBox& fixedBox(std::size_t obstacle) const { return obstacle_boxes_[obstacle]; }
+  Pose poseIn(const std::vector<BodyState>& states, std::int32_t index) const;
+
+  /// The state of a body at the end of a piece of a step. @param contact a constant wrench of
+  /// resting contacts, in W.
+  BodyState moved(std::size_t body, const BodyState& state, const StepInputs& inputs,
+                  const StepPiece& piece, const Wrench& contact) const;
+
+  /// The states of all bodies at the end of a step without contact. @param ends not the states
+  /// themselves; its memory is kept.
+  void moveAll(const std::vector<BodyState>& states, const std::vector<StepInputs>& inputs,
+               std::vector<BodyState>& ends) const;
+
+  /// Bound on the way of a body's points between two states of a piece of h seconds, m: straight,
+  /// curved, and turned.
+  double travelOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
+
+  /// Radius of a body around its centre of mass, m.
+  double radiusOf(std::size_t body) const { return extents_[body].radius; }
+  /// A box around a body's hull, widened by a margin, m.
+  AxisAlignedBox boxOf(std::size_t body, const Pose& pose, double margin) const;
+
+  ClosestFeatures closestOf(const std::vector<BodyState>& states, const ScenePair& pair) const;
+
+  /// The displacements, m, that take the two bodies `by` metres apart along nhat_AB_W, each in
+  /// proportion to its mobility. @param only the one body that may move; -1: both. @returns nothing
+  /// if neither can move that way.
+  std::optional<std::array<Vector3, 2>> shiftsApart(const ScenePair& pair, const Vector3& nhat_AB_W,
+                                                    double by, int only) const;
+
+ private:
+  struct Extent {
+    Vector3 center_B = Vector3::Zero();  // m, of the box around the hull
+    Vector3 half_B = Vector3::Zero();
+    double radius = 0.0;      // m, from B
+    double spin_per_L = 0.0;  // bound on |w| / |L|, 1/(kg m²)
+  };
+
+  WorldRules rules_;
+  std::vector<WorldBody> bodies_;
+  std::vector<WorldObstacle> obstacles_;
+  std::vector<Extent> extents_;  // of each body, where bodies meet
+  std::vector<AxisAlignedBox> obstacle_boxes_;
+};
+
+}  // namespace hovercraft

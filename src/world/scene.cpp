@@ -1,0 +1,157 @@
+#include "hovercraft_sim/world/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
+
+namespace hovercraft {
+namespace {
+
+AxisAlignedBox boundsOf(const ConvexPolyhedron& hull, const Pose& pose) {
+  AxisAlignedBox box;
+  box.low = box.high = transform(pose, hull.vertex(0));
+  for (int i = 1; i < hull.vertexCount(); ++i) {
+    const Vector3 p = transform(pose, hull.vertex(i));
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+}  // namespace
+
+Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
+    : rules_(std::move(rules)), bodies_(std::move(bodies)), obstacles_(std::move(obstacles)) {
+  const FloatingPointEnvironment environment;
+  demand(rules_.step > 0.0 && rules_.tolerance > 0.0, "a world needs a step and a tolerance");
+  demand(rules_.pairs.size() == rules_.material_count * rules_.material_count,
+         "a world needs a law for each pair of materials");
+  if (!rules_.bodies_meet) return;
+  for (const WorldBody& body : bodies_) {
+    demand(body.hull.has_value(), "a body that meets others needs a hull");
+    Extent extent;
+    const AxisAlignedBox box = boundsOf(*body.hull, Pose());
+    extent.center_B = 0.5 * (box.low + box.high);
+    extent.half_B = 0.5 * (box.high - box.low);
+    extent.radius = body.hull->data().radius;
+    const Matrix3 inverse_inertia = body.model.mobility.inverseInertia(Matrix3::Identity());
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) sum += inverse_inertia(i, j) * inverse_inertia(i, j);
+    }
+    extent.spin_per_L = std::sqrt(sum);
+    extents_.push_back(extent);
+  }
+  for (const WorldObstacle& obstacle : obstacles_) {
+    obstacle_boxes_.push_back(boundsOf(obstacle.hull, obstacle.X_WO));
+  }
+}
+
+const std::string& Scene::nameOf(std::int32_t index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return isFixed(index) ? obstacles_[i - bodies_.size()].name : bodies_[i].name;
+}
+
+const ConvexPolyhedron& Scene::hullOf(std::int32_t index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return isFixed(index) ? obstacles_[i - bodies_.size()].hull : *bodies_[i].hull;
+}
+
+int Scene::materialOf(std::int32_t index) const {
+  const auto i = static_cast<std::size_t>(index);
+  return isFixed(index) ? obstacles_[i - bodies_.size()].material : bodies_[i].material;
+}
+
+Pose Scene::poseIn(const std::vector<BodyState>& states, std::int32_t index) const {
+  return isFixed(index) ? fixedPose(index) : poseOf(states[static_cast<std::size_t>(index)]);
+}
+
+void Scene::moveAll(const std::vector<BodyState>& states, const std::vector<StepInputs>& inputs,
+                    std::vector<BodyState>& ends) const {
+  // Into what the last step left there: to assign a variant costs a tenth of a step.
+  if (ends.size() != states.size()) ends = states;
+  auto end = ends.begin();
+  auto input = inputs.begin();
+  auto state = states.begin();
+  for (const WorldBody& body : bodies_) {
+    const DrivenBody system = {body.model, input->thrusts, input->environment,
+                               input->is_loaded ? &input->load : nullptr};
+    if (end->index() != state->index()) *end = *state;
+    if (const auto* start = std::get_if<RigidBodyState<Quaternion>>(&*state)) {
+      *std::get_if<RigidBodyState<Quaternion>>(&*end) =
+          integrationStep<Quaternion>(rules_.integrator, *start, system, rules_.step);
+    } else {
+      *std::get_if<RigidBodyState<Matrix3>>(&*end) = integrationStep<Matrix3>(
+          rules_.integrator, *std::get_if<RigidBodyState<Matrix3>>(&*state), system, rules_.step);
+    }
+    ++state, ++input, ++end;
+  }
+}
+
+BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInputs& inputs,
+                       const StepPiece& piece, const Wrench& contact) const {
+  const bool is_cut = piece.from > 0.0 || piece.to < rules_.step;
+  const ThrustCourse thrusts =
+      is_cut ? inputs.thrusts.piece(piece.from, piece.to, rules_.step) : inputs.thrusts;
+  ExternalLoad load = inputs.is_loaded ? inputs.load : ExternalLoad();
+  const bool is_pressed = squaredNorm(contact.force) > 0.0 || squaredNorm(contact.torque) > 0.0;
+  if (is_pressed) load.in_world = load.in_world + contact;
+  const DrivenBody system = {bodies_[body].model, thrusts, inputs.environment,
+                             inputs.is_loaded || is_pressed ? &load : nullptr};
+  return std::visit(
+      [&](const auto& start) -> BodyState {
+        return integrationStep<decltype(start.orientation)>(rules_.integrator, start, system,
+                                                            piece.to - piece.from);
+      },
+      state);
+}
+
+double Scene::travelOf(std::size_t body, const BodyState& from, const BodyState& to,
+                       double h) const {
+  const Extent& extent = extents_[body];
+  const Mobility& mobility = bodies_[body].model.mobility;
+  return std::visit(
+      [&](const auto& a) {
+        const auto& b = std::get<std::decay_t<decltype(a)>>(to);
+        const double bend = norm(mobility.velocity(b.momentum_W - a.momentum_W)) * h;
+        const double spin =
+            extent.spin_per_L * std::max(norm(a.angular_momentum_W), norm(b.angular_momentum_W));
+        return norm(b.p_WB - a.p_WB) + bend + spin * h * extent.radius;
+      },
+      from);
+}
+
+AxisAlignedBox Scene::boxOf(std::size_t body, const Pose& pose, double margin) const {
+  const Extent& extent = extents_[body];
+  const Vector3 center = transform(pose, extent.center_B);
+  const Vector3 half = times(pose.R_AB.cwiseAbs(), extent.half_B) + Vector3::Constant(margin);
+  return {center - half, center + half};
+}
+
+ClosestFeatures Scene::closestOf(const std::vector<BodyState>& states,
+                                 const ScenePair& pair) const {
+  FeaturePair features;
+  return closestFeatures(hullOf(pair.first), poseIn(states, pair.first), hullOf(pair.second),
+                         poseIn(states, pair.second), features);
+}
+
+std::optional<std::array<Vector3, 2>> Scene::shiftsApart(const ScenePair& pair,
+                                                         const Vector3& nhat_AB_W, double by,
+                                                         int only) const {
+  const std::int32_t sides[2] = {pair.first, pair.second};
+  std::array<Vector3, 2> shifts = {Vector3::Zero(), Vector3::Zero()};
+  double share = 0.0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (isFixed(sides[k]) || (only >= 0 && sides[k] != only)) continue;
+    shifts[k] = mobilityOf(sides[k]).inverseMass().cwiseProduct(nhat_AB_W);
+    share += dot(nhat_AB_W, shifts[k]);
+  }
+  if (!(share > 0.0)) return std::nullopt;
+  shifts[0] *= -by / share;
+  shifts[1] *= by / share;
+  return shifts;
+}
+
+}  // namespace hovercraft
