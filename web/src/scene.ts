@@ -26,12 +26,13 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { Body, Curve, Report, Shape } from './data';
+import type { Body, Curve, Ground, Report, Shape } from './data';
 import { element } from './dom';
 import { indexAt, poseAt } from './motion';
 import { cornersOf } from './outline';
 import { roundStep } from './path_view';
 import type { Player } from './player';
+import { reliefOf } from './relief';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
 const CONTACT_SECONDS = 0.7; // for which a contact is shown
@@ -87,6 +88,16 @@ function gridGeometry(cells: number, cell: number): BufferGeometry {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
   return geometry;
+}
+
+function reliefMesh(ground: Ground, colour: string, lines: string): Object3D {
+  const { corners, triangles } = reliefOf(ground);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(corners, 3));
+  geometry.setIndex(new BufferAttribute(triangles, 1));
+  geometry.computeVertexNormals();
+  const mesh = new Mesh(geometry, new MeshLambertMaterial({ color: new Color(colour).lerp(new Color(lines), 0.4), side: DoubleSide }));
+  return mesh;
 }
 
 interface Thrust {
@@ -185,8 +196,10 @@ export class SceneView {
     this.isStale = true;
   }
 
-  /** A plane with lines at even distances, under what is lowest at the start. */
+  /** The ground of the scenario; else a plane under what is lowest at the start. Lines at even distances. */
   private groundOf({ ground, lines }: Theme): Object3D {
+    const described = this.report.runs[0]?.ground;
+    if (described && described.columns > 0) return reliefMesh(described, ground, lines);
     const bodies = this.report.runs.flatMap((run) => run.bodies);
     const reach = Math.max(10 * this.size, ...bodies.flatMap(({ motion }) =>
       motion.position.slice(0, 2).map((column) => column.reduce((most, value) => Math.max(most, Math.abs(value)), 0))));
@@ -199,7 +212,8 @@ export class SceneView {
     const plane = new Mesh(new PlaneGeometry(cells * cell, cells * cell), new MeshBasicMaterial({ color: ground }));
     const made = new Group();
     made.add(plane, grid);
-    made.position.z = lowest - 0.01 * this.size;
+    made.position.z = described ? described.height : lowest - 0.01 * this.size;
+    if (described) made.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...described.normal));
     return made;
   }
 
@@ -226,7 +240,9 @@ export class SceneView {
   private addActor(body: Body, colour: string, isOther: boolean): void {
     const object = new Group();
     const opacity = isOther ? 0.35 : 1;
-    for (const shape of body.shapes) object.add(this.solid(shape, colour, opacity));
+    for (const shape of body.shapes) {
+      object.add(this.solid(shape, shape.role === 'skirt' ? currentTheme().skirt : colour, opacity));
+    }
     if (body.shapes.length === 0) object.add(this.pointer(colour));
     else if (body.craft) object.add(this.bowOf(body));
     const thrusts = isOther ? [] : this.addEngines(body, object);
