@@ -162,7 +162,7 @@ class CushionCheck {
         fmt::format("step_size = {} s is too long for {} ({:.4g} 1/s, damping ratio {:.3g}) with "
                     "integrator: {}: at most {:.3g} s lets it decay",
                     scenario_.stepSize(), name, mode.frequency(), mode.dampingRatio(),
-                    kIntegratorNames[static_cast<std::size_t>(scenario_.integrator)], longest));
+                    integratorNames()[static_cast<std::size_t>(scenario_.integrator)], longest));
   }
 
   const ConfigReader& reader_;
@@ -198,7 +198,7 @@ void checkPads(const ConfigReader& ground, const Scenario& scenario, const Vehic
   ground.fail("pads", fmt::format("step_size = {} s is too long for {} on its pads with "
                                   "integrator: {}: at most {:.3g} s (or a greater sink)",
                                   scenario.stepSize(), body.name,
-                                  kIntegratorNames[static_cast<std::size_t>(scenario.integrator)],
+                                  integratorNames()[static_cast<std::size_t>(scenario.integrator)],
                                   longest));
 }
 

@@ -51,7 +51,7 @@ std::string modesText(const Hover& hover) {
   std::string text =
       fmt::format("  {:<8}{:>11}{:>9}{:>9}{:>9}", "", "omega 1/s", "Hz", "zeta", "margin");
   for (const Integrator integrator : kIntegrators) {
-    text += fmt::format("  {:>10}", kIntegratorNames[static_cast<std::size_t>(integrator)]);
+    text += fmt::format("  {:>10}", integratorNames()[static_cast<std::size_t>(integrator)]);
   }
   text += "  (longest stable step, s)\n";
   for (std::size_t i = 0; i < kHoverMotions; ++i) {
@@ -61,7 +61,7 @@ std::string modesText(const Hover& hover) {
                     mode.frequency(), mode.frequency() / kTurn, mode.dampingRatio(), mode.margin);
     for (const Integrator integrator : kIntegrators) {
       const std::size_t width =
-          std::max<std::size_t>(10, kIntegratorNames[static_cast<std::size_t>(integrator)].size());
+          std::max<std::size_t>(10, integratorNames()[static_cast<std::size_t>(integrator)].size());
       text += fmt::format("  {:>{}}", stepText(longestStableStep(integrator, mode)), width);
     }
     text += "\n";
@@ -98,7 +98,7 @@ std::string modeJson(const HoverMode& mode) {
   std::string steps;
   for (const Integrator integrator : kIntegrators) {
     steps += fmt::format("{}\"{}\": {}", steps.empty() ? "" : ", ",
-                         kIntegratorNames[static_cast<std::size_t>(integrator)],
+                         integratorNames()[static_cast<std::size_t>(integrator)],
                          jsonNumber(longestStableStep(integrator, mode)));
   }
   return fmt::format(

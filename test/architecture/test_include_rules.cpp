@@ -54,12 +54,14 @@ const std::map<std::string, Rule>& rules() {
          "sensors", "world"},
         {"fmt/", "yaml-cpp/", "png.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros",
-       {{"math", "geometry", "body", "cushion", "hovercraft", "control", "sensors", "sim"}, of_ros}},
+       {{"math", "geometry", "body", "cushion", "hovercraft", "control", "sensors", "sim"},
+        of_ros}},
       {"report",
        {{"math", "geometry", "body", "cushion", "hovercraft", "sensors", "sim", "ros"},
         of_ros + Names{"zlib.h"}}},
       {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
-      {"tools", {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+      {"tools",
+       {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
   return table;
 }

@@ -46,7 +46,7 @@ void recordInto(Recording& recording, Simulation& simulation) {
   };
 }
 
-void fly(Simulation& simulation, Tick ticks) {
+void flyTicks(Simulation& simulation, Tick ticks) {
   for (const Tick end = simulation.tick() + ticks; simulation.tick() < end; simulation.step()) {
     if (simulation.tick() % 100 != 0) continue;
     const auto phase = static_cast<double>(simulation.tick() / 100 % 3);
@@ -58,7 +58,7 @@ Recording flown(const std::string& text, Tick ticks = 2000) {
   Simulation simulation(testing::scenarioOf(text));
   Recording recording;
   recordInto(recording, simulation);
-  fly(simulation, ticks);
+  flyTicks(simulation, ticks);
   return recording;
 }
 
@@ -95,8 +95,8 @@ TEST(SimulationSensors, LatencyThatIsNoWholeStepIsRoundedUp) {
 TEST(SimulationSensors, TheBodiesDoNotKnowThem) {
   Simulation with(testing::scenarioOf(wholeText()));
   Simulation without(testing::scenarioOf(scenarioText("")));
-  fly(with, 3000);
-  fly(without, 3000);
+  flyTicks(with, 3000);
+  flyTicks(without, 3000);
   EXPECT_EQ(with.hash(), without.hash());
   EXPECT_EQ(with.hash(0), without.hash(0));
   EXPECT_NE(with.sensorHash(), 0U);
@@ -124,7 +124,7 @@ TEST(SimulationSensors, NoneDependsOnWhichOthersThereAre) {
 TEST(SimulationSensors, ARunFromASnapshotGivesTheSamplesOfTheRunThatNeverStopped) {
   const Scenario scenario = testing::scenarioOf(wholeText());
   Simulation unbroken(scenario);
-  fly(unbroken, 1337);
+  flyTicks(unbroken, 1337);
   const std::string snapshot = toSnapshot(unbroken);
   Simulation resumed(scenario);
   resumed.restore(parseSnapshot(snapshot, "snap.yaml", scenario));
@@ -133,8 +133,8 @@ TEST(SimulationSensors, ARunFromASnapshotGivesTheSamplesOfTheRunThatNeverStopped
   Recording b;
   recordInto(a, unbroken);
   recordInto(b, resumed);
-  fly(unbroken, 800);
-  fly(resumed, 800);
+  flyTicks(unbroken, 800);
+  flyTicks(resumed, 800);
   EXPECT_EQ(a, b);
   EXPECT_EQ(a.size(), 5U);
   EXPECT_EQ(a.at("gps")[0].measured, 1200);  // was on its way
@@ -144,11 +144,11 @@ TEST(SimulationSensors, ARunFromASnapshotGivesTheSamplesOfTheRunThatNeverStopped
 TEST(SimulationSensors, AResetBeginsAnewWithItsSeed) {
   const Recording first = flown(wholeText());
   Simulation simulation(testing::scenarioOf(wholeText("7")));
-  fly(simulation, 777);
+  flyTicks(simulation, 777);
   simulation.reset(1);
   Recording again;
   recordInto(again, simulation);
-  fly(simulation, 2000);
+  flyTicks(simulation, 2000);
   EXPECT_EQ(again, first);
 }
 
@@ -190,7 +190,9 @@ TEST(SimulationSensors, TheNextSampleIsForetold) {
     const Tick foretold = simulation.nextSampleTick();
     EXPECT_GT(foretold, simulation.tick());
     simulation.step();
-    if (last == simulation.tick()) EXPECT_LE(foretold, last);
+    if (last == simulation.tick()) {
+      EXPECT_LE(foretold, last);
+    }
   }
   Simulation without(testing::scenarioOf(scenarioText("")));
   EXPECT_EQ(without.nextSampleTick(), std::numeric_limits<Tick>::max());
@@ -207,7 +209,7 @@ std::string complaintAbout(std::string snapshot, const std::string& from, const 
 TEST(SimulationSensors, ADamagedSnapshotIsRefused) {
   const Scenario scenario = testing::scenarioOf(wholeText());
   Simulation simulation(scenario);
-  fly(simulation, 1337);
+  flyTicks(simulation, 1337);
   const std::string snapshot = toSnapshot(simulation);
   const auto complaint = [&](const std::string& from, const std::string& to) {
     return complaintAbout(snapshot, from, to, scenario);
