@@ -1,8 +1,10 @@
 #include "hovercraft_sim/report/figure_axes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 
 namespace hovercraft_ros {
 namespace {
@@ -53,6 +55,30 @@ FigurePoint FigureAxes::place(double x, double y) const {
   const double up = (y - y_.least) / (y_.most - y_.least);
   return {left_top_.x + along * (right_bottom_.x - left_top_.x),
           right_bottom_.y - up * (right_bottom_.y - left_top_.y)};
+}
+
+std::vector<FigurePoint> FigureAxes::clipped(std::vector<FigurePoint> corners) const {
+  // Each side of the frame: how far a point lies inside of it.
+  const std::array<std::function<double(const FigurePoint&)>, 4> sides = {
+      [this](const FigurePoint& p) { return p.x - left_top_.x; },
+      [this](const FigurePoint& p) { return right_bottom_.x - p.x; },
+      [this](const FigurePoint& p) { return p.y - left_top_.y; },
+      [this](const FigurePoint& p) { return right_bottom_.y - p.y; }};
+  for (const auto& inside : sides) {
+    std::vector<FigurePoint> kept;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const FigurePoint& a = corners[i];
+      const FigurePoint& b = corners[(i + 1) % corners.size()];
+      const double begin = inside(a);
+      const double end = inside(b);
+      if (begin >= 0.0) kept.push_back(a);
+      if ((begin >= 0.0) == (end >= 0.0)) continue;
+      const double share = begin / (begin - end);
+      kept.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
+    }
+    corners = std::move(kept);
+  }
+  return corners;
 }
 
 void FigureAxes::draw(Figure& figure, const std::string& x_label,

@@ -72,6 +72,7 @@ class PageWriter {
   void writeContacts(const std::vector<RunContact>& contacts);
   void writeWords(const RunData& run);
   void writeLedger(const EnergyLedger& ledger);
+  void writeGround(const RunGround& ground);
   void writeComparison(const BodyComparison& comparison);
 
   JsonWriter json_;
@@ -93,6 +94,7 @@ void PageWriter::writeRun(const RunData& run) {
     json_.endObject();
   }
   json_.endList();
+  if (run.ground) writeGround(*run.ground);
   writeContacts(run.contacts);
   writePanels(run.panels);
   writeWords(run);
@@ -249,6 +251,20 @@ void PageWriter::writeLedger(const EnergyLedger& ledger) {
   json_.key("contacts").value(ledger.contacts);
   json_.key("others").value(ledger.others);
   json_.key("end").value(ledger.end).endObject();
+}
+
+void PageWriter::writeGround(const RunGround& ground) {
+  json_.key("ground").beginObject();
+  json_.key("height").value(ground.height);
+  json_.key("normal");
+  writeVector(ground.normal);
+  json_.key("columns").value(ground.columns);
+  json_.key("spacing").value(ground.spacing);
+  json_.key("x").value(ground.x);
+  json_.key("y").value(ground.y);
+  json_.key("heights");
+  writeCurve(ground.heights);
+  json_.endObject();
 }
 
 void PageWriter::writeComparison(const BodyComparison& body) {

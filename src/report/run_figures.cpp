@@ -231,7 +231,8 @@ void drawObstacles(const FigureAxes& axes, const RunData& run, Figure& figure) {
     }
     FigureArea area = {{}, kObstacleColor};
     for (const auto& [x, y] : outline) area.corners.push_back(axes.place(x, y));
-    figure.areas.push_back(area);
+    area.corners = axes.clipped(std::move(area.corners));
+    if (!area.corners.empty()) figure.areas.push_back(area);
   }
 }
 
@@ -242,6 +243,11 @@ Figure pathFigure(const std::vector<RunData>& runs) {
     for (const RunBody& body : run.bodies) {
       for (const double value : body.motion.position[0]) include(x, value);
       for (const double value : body.motion.position[1]) include(y, value);
+    }
+    for (const RunContact& contact : run.contacts) {
+      if (!(contact.point.cwiseAbs().maxCoeff() <= kFarthestDrawn)) continue;
+      include(x, contact.point.x());
+      include(y, contact.point.y());
     }
   }
   const double room = 0.05 * std::max(x.most - x.least, y.most - y.least);
@@ -270,6 +276,7 @@ Figure pathFigure(const std::vector<RunData>& runs) {
     }
   }
   for (const RunContact& contact : runs.front().contacts) {
+    if (!(contact.point.cwiseAbs().maxCoeff() <= kFarthestDrawn)) continue;
     const FigurePoint at = axes.place(contact.point.x(), contact.point.y());
     figure.lines.push_back(
         {{{at.x - 3.5, at.y - 3.5}, {at.x + 3.5, at.y + 3.5}}, kContactColor, 1.3, 0.0});

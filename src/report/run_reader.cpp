@@ -45,7 +45,10 @@ class RunMaker {
       throw std::invalid_argument(
           fmt::format("{}: none of its poses has finite numbers", recorded_.path));
     }
-    if (run_.scenario) run_.obstacles = obstaclesOf(*run_.scenario);
+    if (run_.scenario) {
+      run_.obstacles = obstaclesOf(*run_.scenario);
+      run_.ground = groundOf(*run_.scenario);
+    }
     readMarks();
     addOtherPanels();
     addFacts(bodies);

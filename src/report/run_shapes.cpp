@@ -13,7 +13,9 @@ using hovercraft::Vector3;
 
 namespace {
 
-constexpr double kLeastEdge = 0.02;  // m: a flat plate is still seen
+constexpr double kLeastEdge = 0.02;        // m: a flat plate is still seen
+constexpr double kLeastSkirt = 0.01;       // m, height of a skirt as it is drawn
+constexpr std::size_t kMostHeights = 200;  // along a side of a height map, as it is drawn
 
 RunShape facesOf(const hovercraft::ConvexPolyhedron& hull, const Vector3& shift) {
   RunShape shape;
@@ -69,6 +71,21 @@ RunShape placed(const Shape& shape, const Vector3& position, const Vector3& rpy,
   return made;
 }
 
+/// The air of each cell of a cushion, between its hem and the craft.
+void addSkirt(const hovercraft::CushionParameters& cushion, std::vector<RunShape>& shapes) {
+  for (const hovercraft::CushionCell& cell : cushion.cells) {
+    std::vector<Vector3> points;
+    const Vector3 up(0.0, 0.0, std::max(cell.height, kLeastSkirt));
+    for (const hovercraft::HemPoint& point : cell.hem) {
+      points.push_back(point.p_HK);
+      points.emplace_back(point.p_HK + up);
+    }
+    if (cell.hem.size() < 3) continue;
+    shapes.push_back(facesOf(hovercraft::convexHull(points, "skirt"), Vector3::Zero()));
+    shapes.back().role = "skirt";
+  }
+}
+
 }  // namespace
 
 std::vector<RunShape> shapesOf(const hovercraft::VehicleScenario& vehicle, bool is_craft) {
@@ -87,6 +104,7 @@ std::vector<RunShape> shapesOf(const hovercraft::VehicleScenario& vehicle, bool 
     box.role = role;
     shapes.push_back(box);
   }
+  if (vehicle.cushion) addSkirt(*vehicle.cushion, shapes);
   return shapes;
 }
 
@@ -99,6 +117,30 @@ std::vector<RunEngine> enginesOf(const hovercraft::VehicleScenario& vehicle) {
     engines.push_back({hovercraft::kEngineNames[i], parameters.p_HE, parameters.direction, full});
   }
   return engines;
+}
+
+std::optional<RunGround> groundOf(const hovercraft::Scenario& scenario) {
+  if (!scenario.ground) return std::nullopt;
+  RunGround ground;
+  if (const auto* plane = std::get_if<hovercraft::PlaneScenario>(&scenario.ground->surface)) {
+    ground.height = plane->height;
+    ground.normal = plane->normal;
+    return ground;
+  }
+  const hovercraft::HeightGrid& grid =
+      std::get<hovercraft::HeightMapScenario>(scenario.ground->surface).grid;
+  const std::size_t stride =
+      std::max<std::size_t>(1, (std::max(grid.columns, grid.rows) - 1) / kMostHeights + 1);
+  ground.columns = (grid.columns - 1) / stride + 1;
+  ground.spacing = grid.spacing * static_cast<double>(stride);
+  ground.x = grid.x;
+  ground.y = grid.y;
+  for (std::size_t row = 0; row < grid.rows; row += stride) {
+    for (std::size_t column = 0; column < grid.columns; column += stride) {
+      ground.heights.push_back(grid.at(column, row));
+    }
+  }
+  return ground;
 }
 
 std::vector<RunObstacle> obstaclesOf(const hovercraft::Scenario& scenario) {

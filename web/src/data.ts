@@ -68,7 +68,18 @@ interface PackedBody {
   ledger?: Ledger;
 }
 
+interface PackedGround {
+  height: number;
+  normal: Vector;
+  columns: number;
+  spacing: number;
+  x: number;
+  y: number;
+  heights: PackedColumn;
+}
+
 interface PackedRun {
+  ground?: PackedGround;
   source: string;
   end: number;
   bodies: PackedBody[];
@@ -137,9 +148,15 @@ export interface Body {
   ledger: Ledger | undefined;
 }
 
-export interface Run extends Omit<PackedRun, 'bodies' | 'panels'> {
+/** A plane, or heights row by row; of a plane there are no columns. */
+export interface Ground extends Omit<PackedGround, 'heights'> {
+  heights: Float64Array;
+}
+
+export interface Run extends Omit<PackedRun, 'bodies' | 'panels' | 'ground'> {
   bodies: Body[];
   panels: Panel[];
+  ground: Ground | undefined;
 }
 
 export interface Difference extends Omit<PackedDifference, 't' | 'position' | 'attitude'> {
@@ -216,6 +233,7 @@ export function reportOf(packed: PackedReport): Report {
       ...run,
       bodies: run.bodies.map((body) => bodyOf(bytes, body)),
       panels: run.panels.map((panel) => panelOf(bytes, panel)),
+      ground: run.ground ? { ...run.ground, heights: unpackCurve(bytes, run.ground.heights) } : undefined,
     })),
     comparison: packed.comparison.map((difference) => differenceOf(bytes, difference)),
     stride: packed.stride,

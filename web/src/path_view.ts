@@ -3,6 +3,7 @@ import { element, fitCanvas } from './dom';
 import { headingOf, indexAt, poseAt } from './motion';
 import { cornersOf, outlineOf, place } from './outline';
 import type { Player } from './player';
+import { shadesOf } from './relief';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
 const MARGIN = 34;
@@ -80,6 +81,7 @@ export class PathView {
     this.fit();
     const context = fitCanvas(this.still);
     if (!context) return;
+    this.drawRelief(context);
     this.drawGrid(context);
     for (const run of this.report.runs.slice(0, 1)) {
       for (const obstacle of run.obstacles) {
@@ -115,6 +117,27 @@ export class PathView {
   private toScreen(x: number, y: number): [number, number] {
     const { view } = this;
     return [view.width / 2 + (x - view.x) * view.scale, view.height / 2 - (y - view.y) * view.scale];
+  }
+
+  /** Hills and hollows of a height map, as a picture that is light on one side. */
+  private drawRelief(context: CanvasRenderingContext2D): void {
+    const ground = this.report.runs[0]?.ground;
+    if (!ground || ground.columns === 0) return;
+    const shades = shadesOf(ground);
+    const { columns, spacing } = ground;
+    const rows = shades.length / columns;
+    const picture = element('canvas', { width: String(columns), height: String(rows) });
+    const pixels = picture.getContext('2d');
+    if (!pixels) return;
+    const data = pixels.createImageData(columns, rows);
+    for (let i = 0; i < shades.length; ++i) {
+      const above = (rows - 1 - Math.floor(i / columns)) * columns + (i % columns); // y is up
+      data.data.set([shades[i], shades[i], shades[i], 110], 4 * above);
+    }
+    pixels.putImageData(data, 0, 0);
+    const [left, bottom] = this.toScreen(ground.x - spacing / 2, ground.y - spacing / 2);
+    const size = spacing * this.view.scale;
+    context.drawImage(picture, left, bottom - rows * size, columns * size, rows * size);
   }
 
   private drawGrid(context: CanvasRenderingContext2D): void {

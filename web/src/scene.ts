@@ -9,7 +9,6 @@ import {
   DirectionalLight,
   DoubleSide,
   EdgesGeometry,
-  GridHelper,
   Group,
   Line,
   LineBasicMaterial,
@@ -27,12 +26,13 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { Body, Curve, Report, Shape } from './data';
+import type { Body, Curve, Ground, Report, Shape } from './data';
 import { element } from './dom';
 import { indexAt, poseAt } from './motion';
 import { cornersOf } from './outline';
 import { roundStep } from './path_view';
 import type { Player } from './player';
+import { reliefOf } from './relief';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
 const CONTACT_SECONDS = 0.7; // for which a contact is shown
@@ -73,6 +73,31 @@ function drawsInSoftware(): boolean {
   const renderer = String(context.getParameter(names.UNMASKED_RENDERER_WEBGL));
   context.getExtension('WEBGL_lose_context')?.loseContext();
   return /swiftshader|llvmpipe|softpipe|software/i.test(renderer);
+}
+
+/** A net of lines in pieces of a cell: renderers without hardware lose a line that begins behind the camera. */
+function gridGeometry(cells: number, cell: number): BufferGeometry {
+  const points: number[] = [];
+  const half = (cells * cell) / 2;
+  for (let i = 0; i <= cells; ++i) {
+    for (let j = 0; j < cells; ++j) {
+      const [across, from, to] = [i * cell - half, j * cell - half, (j + 1) * cell - half];
+      points.push(across, from, 0, across, to, 0, from, across, 0, to, across, 0);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
+  return geometry;
+}
+
+function reliefMesh(ground: Ground, colour: string, lines: string): Object3D {
+  const { corners, triangles } = reliefOf(ground);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(corners, 3));
+  geometry.setIndex(new BufferAttribute(triangles, 1));
+  geometry.computeVertexNormals();
+  const mesh = new Mesh(geometry, new MeshLambertMaterial({ color: new Color(colour).lerp(new Color(lines), 0.4), side: DoubleSide }));
+  return mesh;
 }
 
 interface Thrust {
@@ -171,22 +196,24 @@ export class SceneView {
     this.isStale = true;
   }
 
-  /** A plane with lines at even distances, under what is lowest at the start. */
+  /** The ground of the scenario; else a plane under what is lowest at the start. Lines at even distances. */
   private groundOf({ ground, lines }: Theme): Object3D {
+    const described = this.report.runs[0]?.ground;
+    if (described && described.columns > 0) return reliefMesh(described, ground, lines);
     const bodies = this.report.runs.flatMap((run) => run.bodies);
     const reach = Math.max(10 * this.size, ...bodies.flatMap(({ motion }) =>
       motion.position.slice(0, 2).map((column) => column.reduce((most, value) => Math.max(most, Math.abs(value)), 0))));
-    const cell = roundStep(Math.max(1.2 * this.size, reach / 60));
+    const cell = roundStep(Math.max(1.2 * this.size, reach / 40));
     const cells = 2 * Math.ceil((1.6 * reach) / cell);
     const lowest = Math.min(0, ...bodies.map((body) =>
       (body.motion.position[2]?.[0] ?? 0) + Math.min(0, ...cornersOf(body.shapes).map(([, , z]) => z))));
-    const grid = new GridHelper(cells * cell, cells, lines, lines);
-    grid.rotateX(Math.PI / 2);
+    const grid = new LineSegments(gridGeometry(cells, cell), new LineBasicMaterial({ color: lines }));
     grid.position.z = 0.002 * this.size;
     const plane = new Mesh(new PlaneGeometry(cells * cell, cells * cell), new MeshBasicMaterial({ color: ground }));
     const made = new Group();
     made.add(plane, grid);
-    made.position.z = lowest - 0.01 * this.size;
+    made.position.z = described ? described.height : lowest - 0.01 * this.size;
+    if (described) made.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...described.normal));
     return made;
   }
 
@@ -213,7 +240,9 @@ export class SceneView {
   private addActor(body: Body, colour: string, isOther: boolean): void {
     const object = new Group();
     const opacity = isOther ? 0.35 : 1;
-    for (const shape of body.shapes) object.add(this.solid(shape, colour, opacity));
+    for (const shape of body.shapes) {
+      object.add(this.solid(shape, shape.role === 'skirt' ? currentTheme().skirt : colour, opacity));
+    }
     if (body.shapes.length === 0) object.add(this.pointer(colour));
     else if (body.craft) object.add(this.bowOf(body));
     const thrusts = isOther ? [] : this.addEngines(body, object);

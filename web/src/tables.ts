@@ -52,7 +52,7 @@ const LEDGER_ROWS: [keyof Ledger, string][] = [
   ['engines', 'work of the engines'],
   ['drag', 'work of the drag'],
   ['contacts', 'at contacts'],
-  ['others', 'pushes, resets and the steps of these sums'],
+  ['others', 'all else: cushion, pushes, resets, the steps of these sums'],
   ['end', 'at the last state'],
 ];
 

@@ -14,6 +14,7 @@ export interface Theme {
   obstacle: string;
   body: string;
   alarm: string;
+  skirt: string;
 }
 
 const LIGHT: Theme = {
@@ -29,6 +30,7 @@ const LIGHT: Theme = {
   obstacle: '#9aa5b1',
   body: '#b8935a',
   alarm: '#c0392b',
+  skirt: '#4a525b',
 };
 
 const DARK: Theme = {
@@ -44,6 +46,7 @@ const DARK: Theme = {
   obstacle: '#5e6a77',
   body: '#c9a46a',
   alarm: '#ff7b72',
+  skirt: '#707b87',
 };
 
 const query = '(prefers-color-scheme: dark)';

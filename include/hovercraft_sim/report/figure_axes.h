@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "hovercraft_sim/report/figure.h"
 
@@ -22,9 +23,9 @@ class FigureAxes {
   /// Units of x and y become as long as each other: one of the ranges grows.
   void makeEqual();
   FigurePoint place(double x, double y) const;
+  /// What of a convex polygon lies in the frame (Sutherland and Hodgman 1974).
+  std::vector<FigurePoint> clipped(std::vector<FigurePoint> corners) const;
   void draw(Figure& figure, const std::string& x_label, const std::string& y_label) const;
-  FigureRange xRange() const { return x_; }
-  double width() const { return right_bottom_.x - left_top_.x; }
 
  private:
   FigurePoint left_top_;

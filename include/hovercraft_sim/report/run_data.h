@@ -69,7 +69,7 @@ struct RunShape {
   hovercraft::Quaternion orientation;
   std::vector<hovercraft::Vector3> vertices;  // m, of faces
   std::vector<std::vector<std::int32_t>> faces;
-  std::string role = "hull";  // what it is: hull, bow, body, obstacle
+  std::string role = "hull";  // what it is: hull, skirt, body, obstacle
 };
 
 struct RunEngine {
@@ -85,7 +85,7 @@ struct EnergyLedger {
   double engines = 0.0;   // work of the thrusts
   double drag = 0.0;      // work of the drag, the wind included
   double contacts = 0.0;  // what else changed between two states with a contact of the craft
-  double others = 0.0;    // what else changed: pushes, set_state, the steps of the sums
+  double others = 0.0;    // what else changed: cushion, pushes, set_state, the steps of the sums
   double end = 0.0;
 };
 
@@ -103,6 +103,17 @@ struct RunBody {
 struct RunObstacle {
   std::string name;
   std::vector<RunShape> shapes;
+};
+
+/// What lies under everything: a plane, or heights at even places.
+struct RunGround {
+  double height = 0.0;  // m, of a plane at x = y = 0
+  hovercraft::Vector3 normal = hovercraft::Vector3::UnitZ();
+  std::size_t columns = 0;  // along x; 0: a plane
+  double spacing = 0.0;     // m
+  double x = 0.0;           // m, of the first column and row
+  double y = 0.0;
+  std::vector<double> heights;  // m, row by row
 };
 
 struct RunContact {
@@ -133,6 +144,7 @@ struct RunData {
   std::int64_t end_ns = 0;      // time of the last pose or sample
   std::vector<RunBody> bodies;  // craft first, then loose bodies
   std::vector<RunObstacle> obstacles;
+  std::optional<RunGround> ground;
   std::vector<RunContact> contacts;
   std::vector<RunMark> marks;
   std::vector<RunFact> facts;

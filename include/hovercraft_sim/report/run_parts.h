@@ -41,10 +41,13 @@ std::vector<RunPanel> mainPanels(const RunBody& body, const BodyTopics& topics,
 /// Panels of any other topic with numbers. What does not change is no curve.
 std::vector<RunPanel> panelsOfTopic(const TopicSamples& samples, std::int64_t zero_ns);
 
-/// Solids of a craft or a loose body; the equivalent box of a craft that is described by numbers.
+/// Solids of a craft or a loose body, a craft's skirt among them; the equivalent box of a craft
+/// that is described by numbers.
 std::vector<RunShape> shapesOf(const hovercraft::VehicleScenario& vehicle, bool is_craft);
 std::vector<RunEngine> enginesOf(const hovercraft::VehicleScenario& vehicle);
 std::vector<RunObstacle> obstaclesOf(const hovercraft::Scenario& scenario);
+/// The ground of a scenario that has one; of a large height map every n-th pixel.
+std::optional<RunGround> groundOf(const hovercraft::Scenario& scenario);
 
 /// From the states of a craft, by the trapezoidal rule over them; nothing if there are fewer than
 /// two. @param contacts_ns times of the contacts of the craft, in order.
