@@ -10,7 +10,7 @@
 namespace hovercraft {
 namespace {
 
-Scenario scenarioWith(const std::string& obstacles) {
+Scenario sceneWith(const std::string& obstacles) {
   return testing::scenarioOf("step_size: 0.01\nmodel: planar\nworld: {obstacles: {" + obstacles +
                              "}}\nvehicles:\n" + testing::craftYaml("craft") +
                              "    hull: {box: {size: [0.1, 0.1, 0.1]}}\n    initial: {position: "
@@ -40,7 +40,7 @@ std::string rows(const OccupancyMap& map) {
 // 0.375.
 TEST(Occupancy, ABoxFillsTheCellsThatItReachesInto) {
   const OccupancyMap map =
-      occupancyOf(scenarioWith("a: {box: {size: [1, 0.5, 1]}, position: [0.5, 0.25, 0]}"),
+      occupancyOf(sceneWith("a: {box: {size: [1, 0.5, 1]}, position: [0.5, 0.25, 0]}"),
                   requestOf(0.1, 0.25, 0.375));
   EXPECT_EQ(map.origin_x, -0.375);
   EXPECT_EQ(map.origin_y, -0.375);
@@ -53,9 +53,9 @@ TEST(Occupancy, ABoxFillsTheCellsThatItReachesInto) {
 }
 
 TEST(Occupancy, ATurnedBoxIsADiamond) {
-  const OccupancyMap map = occupancyOf(
-      scenarioWith("a: {box: {size: [1.38, 1.38, 1]}, rpy: [0, 0, 0.7853981633974483]}"),
-      requestOf(0.0, 0.5, 0.02419262));
+  const OccupancyMap map =
+      occupancyOf(sceneWith("a: {box: {size: [1.38, 1.38, 1]}, rpy: [0, 0, 0.7853981633974483]}"),
+                  requestOf(0.0, 0.5, 0.02419262));
   EXPECT_EQ(rows(map),
             ".##.\n"
             "####\n"
@@ -64,7 +64,7 @@ TEST(Occupancy, ATurnedBoxIsADiamond) {
 }
 
 TEST(Occupancy, TheHeightDecides) {
-  const Scenario scenario = scenarioWith(
+  const Scenario scenario = sceneWith(
       "low: {box: {size: [1, 1, 0.2]}}, high: {box: {size: [1, 1, 0.2]}, position: [3, 0, 1]}");
   EXPECT_LT(occupancyOf(scenario, requestOf(0.05, 0.1, 0.5)).width, 25);
   EXPECT_GT(occupancyOf(scenario, requestOf(1.05, 0.1, 0.5)).origin_x, 1.9);
@@ -73,7 +73,7 @@ TEST(Occupancy, TheHeightDecides) {
 }
 
 TEST(Occupancy, BadRequestsAreRefused) {
-  const Scenario scenario = scenarioWith("a: {box: {size: [1, 1, 1]}}");
+  const Scenario scenario = sceneWith("a: {box: {size: [1, 1, 1]}}");
   const auto complaint = [&](double resolution, double margin) {
     return testing::messageOf([&] { occupancyOf(scenario, requestOf(0.0, resolution, margin)); });
   };
@@ -86,7 +86,7 @@ TEST(Occupancy, BadRequestsAreRefused) {
 TEST(Occupancy, IsWrittenAsMapServerReadsIt) {
   const testing::TestFolder folder;
   const OccupancyMap map =
-      occupancyOf(scenarioWith("a: {box: {size: [1, 0.5, 1]}, position: [0.5, 0.25, 0]}"),
+      occupancyOf(sceneWith("a: {box: {size: [1, 0.5, 1]}, position: [0.5, 0.25, 0]}"),
                   requestOf(0.1, 0.25, 0.375));
   writeMap(map, folder.file("pen.yaml"));
   EXPECT_EQ(testing::contentOf(folder.file("pen.yaml")),

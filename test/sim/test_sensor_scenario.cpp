@@ -29,7 +29,7 @@ std::string withWorld(const std::string& sensor) {
                       "planar", "world: {}\n");
 }
 
-std::string complaint(const std::string& text) {
+std::string sensorComplaint(const std::string& text) {
   return testing::messageOf([&] { testing::scenarioOf(text); });
 }
 
@@ -147,7 +147,7 @@ TEST(SensorScenario, EveryRuleNamesKeyValueAndRule) {
        "a laser needs a world: in the scenario"},
   };
   for (const Rule& rule : rules) {
-    const std::string found = complaint(withSensor(rule.sensor));
+    const std::string found = sensorComplaint(withSensor(rule.sensor));
     EXPECT_NE(found.find(std::string("vehicles.craft.sensors.")), std::string::npos) << found;
     EXPECT_NE(found.find(rule.message), std::string::npos) << rule.sensor << "\n" << found;
   }
@@ -157,11 +157,11 @@ TEST(SensorScenario, EveryRuleOfALaserToo) {
   const std::string whole =
       "kind: laser, rate: 5, angle_min: -1, angle_max: 1, beams: 3, range_min: "
       "0.1, range_max: 5";
-  EXPECT_EQ(complaint(withWorld(whole)), "nothing was thrown");
+  EXPECT_EQ(sensorComplaint(withWorld(whole)), "nothing was thrown");
   const auto changed = [&](const std::string& from, const std::string& to) {
     std::string text = whole;
     text.replace(text.find(from), from.size(), to);
-    return complaint(withWorld(text));
+    return sensorComplaint(withWorld(text));
   };
   const std::vector<std::array<const char*, 3>> rules = {
       {"angle_max: 1", "angle_max: -2", "s.angle_max = -2: must not be less than angle_min"},
@@ -189,26 +189,27 @@ TEST(SensorScenario, AKeyOfAnotherKindIsUnknown) {
        {"kind: imu, rate: 5, beams: 3", "kind: odometry, rate: 5, position: [0, 0, 0]",
         "kind: gnss, rate: 5, latitude_deg: 0, longitude_deg: 0, rpy: [0, 0, 0]",
         "kind: magnetometer, rate: 5, field: [0, 0, 1], gyroscope_drift: 1"}) {
-    EXPECT_NE(complaint(withSensor(sensor)).find("unknown key; known here: kind, rate, latency"),
-              std::string::npos)
+    EXPECT_NE(
+        sensorComplaint(withSensor(sensor)).find("unknown key; known here: kind, rate, latency"),
+        std::string::npos)
         << sensor;
   }
 }
 
 TEST(SensorScenario, NamesAndTfHaveRules) {
   const auto named = [](const std::string& name) {
-    return complaint(scenarioWith("    sensors: {" + name + ": {kind: imu, rate: 100}}\n"));
+    return sensorComplaint(scenarioWith("    sensors: {" + name + ": {kind: imu, rate: 100}}\n"));
   };
   EXPECT_EQ(named("front_imu"), "nothing was thrown");
   EXPECT_NE(named("my-imu").find("the name of a sensor is a ROS name"), std::string::npos);
   EXPECT_NE(named("base_link").find("is its frame: that one is taken"), std::string::npos);
-  EXPECT_NE(complaint(scenarioWith("    tf: odometry\n"))
+  EXPECT_NE(sensorComplaint(scenarioWith("    tf: odometry\n"))
                 .find("vehicles.craft.tf = odometry: needs a sensor of kind odometry"),
             std::string::npos);
-  EXPECT_NE(complaint(scenarioWith("    tf: both\n"))
+  EXPECT_NE(sensorComplaint(scenarioWith("    tf: both\n"))
                 .find("vehicles.craft.tf = both: must be one of: truth, odometry, none"),
             std::string::npos);
-  EXPECT_EQ(complaint(scenarioWith("    tf: none\n")), "nothing was thrown");
+  EXPECT_EQ(sensorComplaint(scenarioWith("    tf: none\n")), "nothing was thrown");
 }
 
 }  // namespace

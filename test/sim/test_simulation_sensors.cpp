@@ -46,7 +46,7 @@ void recordInto(Recording& recording, Simulation& simulation) {
   };
 }
 
-void flyTicks(Simulation& simulation, Tick ticks) {
+void flySensed(Simulation& simulation, Tick ticks) {
   for (const Tick end = simulation.tick() + ticks; simulation.tick() < end; simulation.step()) {
     if (simulation.tick() % 100 != 0) continue;
     const auto phase = static_cast<double>(simulation.tick() / 100 % 3);
@@ -54,16 +54,16 @@ void flyTicks(Simulation& simulation, Tick ticks) {
   }
 }
 
-Recording flown(const std::string& text, Tick ticks = 2000) {
+Recording samplesOf(const std::string& text, Tick ticks = 2000) {
   Simulation simulation(testing::scenarioOf(text));
   Recording recording;
   recordInto(recording, simulation);
-  flyTicks(simulation, ticks);
+  flySensed(simulation, ticks);
   return recording;
 }
 
 TEST(SimulationSensors, EachIsReadAtItsRateAndDeliveredAfterItsLatency) {
-  const Recording recording = flown(wholeText());
+  const Recording recording = samplesOf(wholeText());
   const std::map<std::string, std::pair<Tick, Tick>> rhythm = {
       {"gps", {200, 250}}, {"wheel", {20, 0}}, {"compass", {50, 0}}, {"lidar", {100, 20}}};
   for (const auto& [name, timing] : rhythm) {
@@ -79,24 +79,25 @@ TEST(SimulationSensors, EachIsReadAtItsRateAndDeliveredAfterItsLatency) {
 
 // 400 samples of which a tenth is lost: 40, sigma 6; five sigma.
 TEST(SimulationSensors, ATenthOfTheSamplesIsDropped) {
-  const auto samples = flown(wholeText()).at("imu");
+  const auto samples = samplesOf(wholeText()).at("imu");
   EXPECT_NEAR(static_cast<double>(samples.size()), 359.0, 30.0);
   for (const Recorded& sample : samples) EXPECT_EQ(sample.measured % 5, 0);
 }
 
 TEST(SimulationSensors, LatencyThatIsNoWholeStepIsRoundedUp) {
-  const auto samples = flown(scenarioText("    sensors: {c: {kind: magnetometer, rate: 100, field: "
-                                          "[0, 0, 1], latency: 0.0021}}\n"),
-                             100)
-                           .at("c");
+  const auto samples =
+      samplesOf(scenarioText("    sensors: {c: {kind: magnetometer, rate: 100, field: "
+                             "[0, 0, 1], latency: 0.0021}}\n"),
+                100)
+          .at("c");
   EXPECT_EQ(samples[0].delivered - samples[0].measured, 3);
 }
 
 TEST(SimulationSensors, TheBodiesDoNotKnowThem) {
   Simulation with(testing::scenarioOf(wholeText()));
   Simulation without(testing::scenarioOf(scenarioText("")));
-  flyTicks(with, 3000);
-  flyTicks(without, 3000);
+  flySensed(with, 3000);
+  flySensed(without, 3000);
   EXPECT_EQ(with.hash(), without.hash());
   EXPECT_EQ(with.hash(0), without.hash(0));
   EXPECT_NE(with.sensorHash(), 0U);
@@ -105,26 +106,26 @@ TEST(SimulationSensors, TheBodiesDoNotKnowThem) {
 }
 
 TEST(SimulationSensors, TheSameSeedGivesTheSameBitsAndAnotherOneOthers) {
-  const Recording first = flown(wholeText());
-  EXPECT_EQ(flown(wholeText()), first);
-  const Recording other = flown(wholeText("2"));
+  const Recording first = samplesOf(wholeText());
+  EXPECT_EQ(samplesOf(wholeText()), first);
+  const Recording other = samplesOf(wholeText("2"));
   for (const auto& [name, samples] : first) {
     EXPECT_NE(other.at(name).back().values, samples.back().values) << name;
   }
 }
 
 TEST(SimulationSensors, NoneDependsOnWhichOthersThereAre) {
-  const Recording all = flown(wholeText());
+  const Recording all = samplesOf(wholeText());
   const std::string laser_only = "    sensors:\n" + testing::laserSensor();
-  EXPECT_EQ(flown(scenarioText(laser_only)).at("lidar"), all.at("lidar"));
-  const Recording without_laser = flown(scenarioText(allSensors()));
+  EXPECT_EQ(samplesOf(scenarioText(laser_only)).at("lidar"), all.at("lidar"));
+  const Recording without_laser = samplesOf(scenarioText(allSensors()));
   for (const auto& [name, samples] : without_laser) EXPECT_EQ(samples, all.at(name)) << name;
 }
 
 TEST(SimulationSensors, ARunFromASnapshotGivesTheSamplesOfTheRunThatNeverStopped) {
   const Scenario scenario = testing::scenarioOf(wholeText());
   Simulation unbroken(scenario);
-  flyTicks(unbroken, 1337);
+  flySensed(unbroken, 1337);
   const std::string snapshot = toSnapshot(unbroken);
   Simulation resumed(scenario);
   resumed.restore(parseSnapshot(snapshot, "snap.yaml", scenario));
@@ -133,8 +134,8 @@ TEST(SimulationSensors, ARunFromASnapshotGivesTheSamplesOfTheRunThatNeverStopped
   Recording b;
   recordInto(a, unbroken);
   recordInto(b, resumed);
-  flyTicks(unbroken, 800);
-  flyTicks(resumed, 800);
+  flySensed(unbroken, 800);
+  flySensed(resumed, 800);
   EXPECT_EQ(a, b);
   EXPECT_EQ(a.size(), 5U);
   EXPECT_EQ(a.at("gps")[0].measured, 1200);  // was on its way
@@ -142,13 +143,13 @@ TEST(SimulationSensors, ARunFromASnapshotGivesTheSamplesOfTheRunThatNeverStopped
 }
 
 TEST(SimulationSensors, AResetBeginsAnewWithItsSeed) {
-  const Recording first = flown(wholeText());
+  const Recording first = samplesOf(wholeText());
   Simulation simulation(testing::scenarioOf(wholeText("7")));
-  flyTicks(simulation, 777);
+  flySensed(simulation, 777);
   simulation.reset(1);
   Recording again;
   recordInto(again, simulation);
-  flyTicks(simulation, 2000);
+  flySensed(simulation, 2000);
   EXPECT_EQ(again, first);
 }
 
@@ -190,16 +191,14 @@ TEST(SimulationSensors, TheNextSampleIsForetold) {
     const Tick foretold = simulation.nextSampleTick();
     EXPECT_GT(foretold, simulation.tick());
     simulation.step();
-    if (last == simulation.tick()) {
-      EXPECT_LE(foretold, last);
-    }
+    if (last == simulation.tick()) EXPECT_LE(foretold, last);
   }
   Simulation without(testing::scenarioOf(scenarioText("")));
   EXPECT_EQ(without.nextSampleTick(), std::numeric_limits<Tick>::max());
 }
 
-std::string complaintAbout(std::string snapshot, const std::string& from, const std::string& to,
-                           const Scenario& scenario) {
+std::string complaintOfSensors(std::string snapshot, const std::string& from, const std::string& to,
+                               const Scenario& scenario) {
   const std::size_t place = snapshot.find(from);
   if (place == std::string::npos) return "'" + from + "' is not in the snapshot";
   snapshot.replace(place, from.size(), to);
@@ -209,10 +208,10 @@ std::string complaintAbout(std::string snapshot, const std::string& from, const 
 TEST(SimulationSensors, ADamagedSnapshotIsRefused) {
   const Scenario scenario = testing::scenarioOf(wholeText());
   Simulation simulation(scenario);
-  flyTicks(simulation, 1337);
+  flySensed(simulation, 1337);
   const std::string snapshot = toSnapshot(simulation);
   const auto complaint = [&](const std::string& from, const std::string& to) {
-    return complaintAbout(snapshot, from, to, scenario);
+    return complaintOfSensors(snapshot, from, to, scenario);
   };
   EXPECT_NE(complaint("gps: {memory: [", "gps: {memory: [1, ").find("must be a list of at most 12"),
             std::string::npos);

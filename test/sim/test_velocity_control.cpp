@@ -70,13 +70,13 @@ Step stepOf(const Scenario& scenario, const PlanarVelocity& command, double size
 
 const std::vector<std::string> kShipped = {"hovercraft", "mvwt"};
 
-Scenario shipped(const std::string& name) {
+Scenario shippedCraft(const std::string& name) {
   return loadScenario("config/" + name + ".yaml");
 }
 
 TEST(VelocityControl, StepsOfSpeedAreReachedWithoutOvershoot) {
   for (const std::string& name : kShipped) {
-    const Scenario scenario = shipped(name);
+    const Scenario scenario = shippedCraft(name);
     int steps = 0;
     for (const double sign : {1.0, -1.0}) {
       const double top = Controlled(scenario).law().topSpeed(sign);
@@ -96,7 +96,7 @@ TEST(VelocityControl, StepsOfSpeedAreReachedWithoutOvershoot) {
 
 TEST(VelocityControl, StepsOfYawRateAreReachedWithoutOvershoot) {
   for (const std::string& name : kShipped) {
-    const Scenario scenario = shipped(name);
+    const Scenario scenario = shippedCraft(name);
     for (const double sign : {1.0, -1.0}) {
       const double top = Controlled(scenario).law().topYawRate(sign);
       ASSERT_GT(top, 0.5) << name;
@@ -113,7 +113,7 @@ TEST(VelocityControl, StepsOfYawRateAreReachedWithoutOvershoot) {
 
 // Both fans of 4.5 N against 4.5 N s/m: 2 m/s. One alone turns it with 0.123 m 4.5 N / 0.41 N m s.
 TEST(VelocityControl, KnowsWhatTheCraftReaches) {
-  const Scenario scenario = shipped("mvwt");
+  const Scenario scenario = shippedCraft("mvwt");
   EXPECT_NEAR(Controlled(scenario).law().topSpeed(1.0), 2.0, 1e-6);
   EXPECT_EQ(Controlled(scenario).law().topSpeed(-1.0), 0.0);
   EXPECT_NEAR(Controlled(scenario).law().topYawRate(1.0), 1.35, 1e-6);
@@ -122,7 +122,7 @@ TEST(VelocityControl, KnowsWhatTheCraftReaches) {
 }
 
 TEST(VelocityControl, ACommandOutOfReachDoesNotWindUp) {
-  Controlled craft(shipped("mvwt"));
+  Controlled craft(shippedCraft("mvwt"));
   for (int n = 0; n < 1000; ++n) craft.advance({50.0, 0.0, 0.0});
   EXPECT_GT(craft.velocity().u, 1.95);
   // Drag alone slows it from 2 to below 1.1 m/s in ln(2/1.05) 1.144 s = 0.74 s.
@@ -137,7 +137,7 @@ TEST(VelocityControl, ACommandOutOfReachDoesNotWindUp) {
 
 // What the model does not know: a wind along the course. The integral makes up for it.
 TEST(VelocityControl, TheIntegralHoldsAgainstAWind) {
-  Scenario scenario = shipped("hovercraft");
+  Scenario scenario = shippedCraft("hovercraft");
   scenario.wind = {-0.8, 0.0, 0.0};
   const Step step =
       stepOf(scenario, {1.0, 0.0, 0.0}, 1.0, [](const PlanarVelocity& v) { return v.u; });
@@ -165,22 +165,23 @@ TEST(VelocityControl, SwayIsControlledWhereTheActuatorsCan) {
 
 TEST(VelocityControl, ShippedParametersAreThoseOfTheScenarios) {
   for (const std::string& name : kShipped) {
-    EXPECT_EQ(
-        testing::contentOf("config/velocity_controller/" + name + ".yaml"),
-        velocityYaml(velocityParametersOf(shipped(name).vehicles[0]), "config/" + name + ".yaml"))
+    EXPECT_EQ(testing::contentOf("config/velocity_controller/" + name + ".yaml"),
+              velocityYaml(velocityParametersOf(shippedCraft(name).vehicles[0]),
+                           "config/" + name + ".yaml"))
         << "velocity_gains config/" << name << ".yaml makes it anew";
   }
 }
 
 TEST(VelocityControl, ParametersComeBackFromTheirText) {
-  const VelocityParameters made = velocityParametersOf(shipped("hovercraft").vehicles[0]);
+  const VelocityParameters made = velocityParametersOf(shippedCraft("hovercraft").vehicles[0]);
   const std::string text = velocityYaml(made, "x");
   const VelocityParameters read = parseVelocityParameters(ConfigReader(treeOf(text, "x"), "x"));
   EXPECT_EQ(velocityYaml(read, "x"), text);
 }
 
 TEST(VelocityControl, ABadParameterIsNamed) {
-  const std::string text = velocityYaml(velocityParametersOf(shipped("mvwt").vehicles[0]), "x");
+  const std::string text =
+      velocityYaml(velocityParametersOf(shippedCraft("mvwt").vehicles[0]), "x");
   const auto complaint = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
     changed.replace(changed.find(from), from.size(), to);
