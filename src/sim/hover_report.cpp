@@ -34,7 +34,7 @@ HoverReport reportOn(const Scenario& scenario, const VehicleScenario& vehicle) {
     for (const HemPoint& hem : cell.hem) report.hem_length += hem.length;
   }
   const Cushion cushion = *cushionOf(vehicle);
-  report.hover = hoverOf(cushion, body, cushion.describedSpeeds());
+  report.hover = hoverOf(cushion, body, cushion.fullSpeeds());
   report.mass_flow = vehicle.cushion->air_density * report.hover.flow;
   return report;
 }

@@ -202,6 +202,21 @@ TEST(CushionScenario, FanOfACellIsNamedWhereThereAreSeveral) {
   EXPECT_EQ(toYaml(parsed(toYaml(scenario))), toYaml(scenario));
 }
 
+TEST(CushionScenario, FanMayTurnAtSpeedsOverTime) {
+  const std::string text =
+      with(cushionText(), "speed: 1}", "speeds: [{time: 1, speed: 0.5}, {time: 3, speed: 1}]}");
+  const Scenario scenario = parsed(text);
+  EXPECT_EQ(toYaml(parsed(toYaml(scenario))), toYaml(scenario));
+  const CushionFan& fan = scenario.vehicles[0].cushion->fans[0];
+  EXPECT_EQ(fan.speedAt(0.0), 0.5);
+  EXPECT_EQ(fan.speedAt(2.0), 0.75);
+  EXPECT_EQ(fan.speedAt(9.0), 1.0);
+  EXPECT_EQ(fan.fullSpeed(), 1.0);
+  expectComplaint(with(text, "time: 3", "time: 1"), "greater than the time before it");
+  expectComplaint(with(text, "speeds:", "speed: 1, speeds:"), "beside speed");
+  expectComplaint(with(cushionText(), "speed: 1}", "speeds: []}"), "at least one");
+}
+
 TEST(GroundScenario, PlaneMustPointUpAndStandAlone) {
   expectComplaint(with(cushionText(), "[0, 0, 1]}\n  pads", "[0, 0, -1]}\n  pads"),
                   "must point up");
@@ -223,7 +238,8 @@ std::string pgm(int columns, int rows, const std::string& pixels) {
 TEST(GroundScenario, HeightMapLiesAsMapServerHasIt) {
   // The lower left pixel of the image is the one at the origin.
   const testing::TestFolder folder;
-  const std::string file = folder.write("map.pgm", pgm(2, 3, std::string("\x00\x33\x66\x99\xcc\xff", 6)));
+  const std::string file =
+      folder.write("map.pgm", pgm(2, 3, std::string("\x00\x33\x66\x99\xcc\xff", 6)));
   const std::string text =
       with(cushionText(), "  plane: {height: 0.25, normal: [0, 0, 1]}\n",
            "  height_map: {file: " + file +

@@ -101,7 +101,7 @@ TEST(CushionSimulation, WithoutItsFansTheCraftStandsOnThePadsOfItsHull) {
 
 TEST(CushionSimulation, WithoutItsFansTheCraftStandsOnItsHullByContact) {
   Scenario scenario = loadScenario("config/ramp.yaml");
-  scenario.vehicles[0].cushion->fans[0].speed = 0.0;
+  scenario.vehicles[0].cushion->fans[0].speeds = {{0.0, 0.0}};
   Simulation simulation(scenario);
   fly(simulation, 3.0);
   EXPECT_NEAR(simulation.motion(0).p_WB.z(), 0.042, 2e-6);
@@ -110,11 +110,24 @@ TEST(CushionSimulation, WithoutItsFansTheCraftStandsOnItsHullByContact) {
   EXPECT_GT(simulation.world()->leastGap(simulation.state().bodies), 0.0);
 }
 
+TEST(CushionSimulation, CraftSettlesWhenItsFanStopsAndLiftsOffAgain) {
+  Scenario scenario = loadScenario("config/ramp.yaml");
+  scenario.vehicles[0].cushion->fans[0].speeds = {{1.0, 1.0}, {1.5, 0.0}, {3.0, 0.0}, {3.5, 1.0}};
+  Simulation simulation(scenario);
+  fly(simulation, 1.0);
+  const double hovering = simulation.motion(0).p_WB.z();
+  EXPECT_NEAR(hovering, 0.053, 1e-4);
+  fly(simulation, 1.9);
+  EXPECT_NEAR(simulation.motion(0).p_WB.z(), 0.042, 2e-6);
+  fly(simulation, 2.1);
+  EXPECT_NEAR(simulation.motion(0).p_WB.z(), hovering, 1e-4);
+}
+
 TEST(CushionSimulation, CraftHoldsOnASlopeByTheFrictionOfItsHull) {
   // On the ramp of the scene, 0.05 rad, with its fans at rest.
   Scenario scenario = loadScenario("config/ramp.yaml");
   VehicleScenario& craft = scenario.vehicles[0];
-  craft.cushion->fans[0].speed = 0.0;
+  craft.cushion->fans[0].speeds = {{0.0, 0.0}};
   craft.initial_rpy = Vector3(0.0, -0.05, 0.0);
   craft.initial_p_WB = Vector3(2.0, 0.0, 0.13);
   Simulation simulation(scenario);
@@ -161,10 +174,9 @@ TEST(CushionSimulation, SceneOfRoughGroundIsFollowed) {
 TEST(CushionSimulation, PlanarCraftGrindsUntilItsFansCarryIt) {
   // Lift-off at s = sqrt(m g/(a S)) = 0.7071.
   const auto coasted = [](const std::string& speed) {
-    Simulation simulation =
-        flightOf("rc5", {"model=planar", "vehicles.rc5.cushion.fans.lift.speed=" + speed,
-                         "vehicles.rc5.drag.linear=[0, 0, 0]",
-                         "vehicles.rc5.initial.velocity=[1, 0, 0]"});
+    Simulation simulation = flightOf(
+        "rc5", {"model=planar", "vehicles.rc5.cushion.fans.lift.speed=" + speed,
+                "vehicles.rc5.drag.linear=[0, 0, 0]", "vehicles.rc5.initial.velocity=[1, 0, 0]"});
     fly(simulation, 1.0);
     return simulation.motion(0).twist.v_WB.x();
   };
