@@ -289,7 +289,9 @@ double longestStableStep(Integrator integrator, const HoverMode& mode) {
     // square h² + 2 rate h < 4.
     return 4.0 / (rate + std::sqrt(rate * rate + 4.0 * square));
   }
-  const std::complex<double> root = std::sqrt(std::complex<double>(0.25 * rate * rate - square));
+  const double inner = 0.25 * rate * rate - square;
+  const double size = std::sqrt(std::abs(inner));
+  const std::complex<double> root(inner > 0.0 ? size : 0.0, inner > 0.0 ? 0.0 : size);
   double longest = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& lambda : {-0.5 * rate + root, -0.5 * rate - root}) {
     if (lambda == 0.0) continue;  // a displacement that nothing brings back

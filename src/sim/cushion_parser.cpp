@@ -45,7 +45,7 @@ CushionFan parseFan(const std::string& name, const ConfigReader& reader) {
   return fan;
 }
 
-std::vector<std::string> namesOf(const std::vector<CushionFan>& fans) {
+std::vector<std::string> fanNames(const std::vector<CushionFan>& fans) {
   std::vector<std::string> names;
   names.reserve(fans.size());
   for (const CushionFan& fan : fans) names.push_back(fan.name);
@@ -55,7 +55,7 @@ std::vector<std::string> namesOf(const std::vector<CushionFan>& fans) {
 /// The fan that a cell or all cells of a rectangle name; the only one if they name none.
 std::size_t fanOf(const ConfigReader& reader, const std::vector<CushionFan>& fans) {
   if (fans.size() > 1) reader.text("fan");  // must be there
-  return reader.choiceOr(0, "fan", namesOf(fans));
+  return reader.choiceOr(0, "fan", fanNames(fans));
 }
 
 CushionCell parseCell(const ConfigReader& reader, const std::vector<CushionFan>& fans) {
