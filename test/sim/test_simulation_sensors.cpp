@@ -191,7 +191,9 @@ TEST(SimulationSensors, TheNextSampleIsForetold) {
     const Tick foretold = simulation.nextSampleTick();
     EXPECT_GT(foretold, simulation.tick());
     simulation.step();
-    if (last == simulation.tick()) EXPECT_LE(foretold, last);
+    if (last == simulation.tick()) {
+      EXPECT_LE(foretold, last);
+    }
   }
   Simulation without(testing::scenarioOf(scenarioText("")));
   EXPECT_EQ(without.nextSampleTick(), std::numeric_limits<Tick>::max());

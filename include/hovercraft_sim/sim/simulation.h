@@ -170,6 +170,7 @@ class HOVERCRAFT_PUBLIC Simulation {
  private:
   void applyDueCommands();
   void endWrenches();
+  void turnFans(const Cushion& cushion, FanSpeedCourse& course) const;
   void prepareInputs();
   void takeResult();
   void readSensors();
