@@ -63,6 +63,7 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   state_.commands = commands_;
   state_.events = place.events;
   state_.hash = simulation.hash(vehicle_);
+  state_.sensor_hash = simulation.sensorHash(vehicle_);
   if (hasCushion()) fillCushion(simulation);
 }
 
