@@ -18,7 +18,7 @@ NoiseParameters withoutWhite(NoiseParameters noise) {
 }  // namespace
 
 LaserModel::LaserModel(const LaserParameters& parameters, const SensorMount& mount,
-                       std::int32_t body, const std::vector<RayTarget>& targets)
+                       const SensorSite& site)
     : noise_(withoutWhite(parameters.range), mount.period, mount.channels[0]),
       white_(NoiseProcess(parameters.range, mount.period, mount.channels[0]).white()),
       gain_(1.0 + parameters.range.scale),
@@ -26,8 +26,9 @@ LaserModel::LaserModel(const LaserParameters& parameters, const SensorMount& mou
       range_max_(parameters.range_max),
       R_BS_(mount.R_BS),
       p_BS_(mount.p_BS()),
-      body_(body),
-      targets_(targets) {
+      body_(site.body),
+      targets_(*site.targets),
+      ground_(site.ground) {
   std::size_t most_faces = 0;
   for (const RayTarget& target : targets_) most_faces = std::max(most_faces, target.faces.size());
   faces_.resize(most_faces);
@@ -52,6 +53,7 @@ void LaserModel::measure(const SensedInstant& instant, double* memory, double* s
                           : poseOf((*instant.bodies)[static_cast<std::size_t>(target.moving)]);
     castBeams(fan_, X_WS, target, X_WT, range_max_, faces_, sample);
   }
+  if (ground_ != nullptr) ground_->cast(fan_, X_WS, range_max_, sample);
   addNoise(instant, memory, sample);
 }
 

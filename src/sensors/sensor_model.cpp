@@ -28,7 +28,7 @@ struct ModelMaker {
     return std::make_unique<MagnetometerModel>(magnetometer, mount);
   }
   std::unique_ptr<SensorModel> operator()(const LaserParameters& laser) const {
-    return std::make_unique<LaserModel>(laser, mount, site.body, *site.targets);
+    return std::make_unique<LaserModel>(laser, mount, site);
   }
 };
 

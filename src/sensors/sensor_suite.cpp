@@ -24,14 +24,19 @@ struct SensorSuite::Sensor {
   }
 };
 
-SensorSuite::SensorSuite(std::vector<SensorCarrier> carriers, std::vector<RayTarget> targets,
+SensorSuite::SensorSuite(std::vector<SensorCarrier> carriers, SensorSurroundings surroundings,
                          std::int64_t step_ns)
     : carriers_(std::move(carriers)),
-      targets_(std::make_unique<std::vector<RayTarget>>(std::move(targets))) {
+      surroundings_(std::make_unique<SensorSurroundings>(std::move(surroundings))) {
+  const RayGround* const ground = surroundings_->ground ? &*surroundings_->ground : nullptr;
   for (std::size_t vehicle = 0; vehicle < carriers_.size(); ++vehicle) {
     const SensorCarrier& carrier = carriers_[vehicle];
-    const SensorSite site = {carrier.name, static_cast<std::int32_t>(vehicle), carrier.p_HB,
-                             toSeconds(step_ns), targets_.get()};
+    const SensorSite site = {carrier.name,
+                             static_cast<std::int32_t>(vehicle),
+                             carrier.p_HB,
+                             toSeconds(step_ns),
+                             &surroundings_->targets,
+                             ground};
     for (std::size_t index = 0; index < carrier.sensors.size(); ++index) {
       const SensorParameters& parameters = carrier.sensors[index];
       Sensor sensor;

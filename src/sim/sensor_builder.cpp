@@ -24,6 +24,22 @@ std::vector<RayTarget> rayTargetsOf(const Scenario& scenario) {
   return targets;
 }
 
+namespace {
+
+struct GroundMaker {
+  RayGround operator()(const PlaneScenario& plane) const {
+    return RayGround(GroundPlane{plane.normal, plane.normal.z() * plane.height});
+  }
+  RayGround operator()(const HeightMapScenario& map) const { return RayGround(map.grid); }
+};
+
+std::optional<RayGround> rayGroundOf(const Scenario& scenario) {
+  if (!scenario.ground) return std::nullopt;
+  return std::visit(GroundMaker(), scenario.ground->surface);
+}
+
+}  // namespace
+
 std::optional<SensorSuite> sensorSuiteOf(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   std::vector<SensorCarrier> carriers;
@@ -38,9 +54,9 @@ std::optional<SensorSuite> sensorSuiteOf(const Scenario& scenario) {
     }
   }
   if (!any) return std::nullopt;
-  return SensorSuite(std::move(carriers),
-                     any_laser ? rayTargetsOf(scenario) : std::vector<RayTarget>(),
-                     scenario.step_ns);
+  SensorSurroundings surroundings;
+  if (any_laser) surroundings = {rayTargetsOf(scenario), rayGroundOf(scenario)};
+  return SensorSuite(std::move(carriers), std::move(surroundings), scenario.step_ns);
 }
 
 }  // namespace hovercraft

@@ -155,7 +155,9 @@ Keys keysOf(SensorKind kind) {
 }
 
 LaserParameters parseLaser(const ConfigReader& reader, const SensorContext& context) {
-  if (!context.scenario.world) reader.fail("", "a laser needs a world: in the scenario");
+  if (!context.scenario.world && !context.scenario.ground) {
+    reader.fail("", "a laser needs a world: or a ground: in the scenario");
+  }
   LaserParameters laser;
   laser.angle_min = reader.number("angle_min", kAngle);
   laser.angle_max = reader.number("angle_max", kAngle);

@@ -48,7 +48,7 @@ const std::map<std::string, Rule>& rules() {
       {"world",
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
       {"control", {{"math"}, {}}},
-      {"sensors", {{"math", "geometry", "body"}, {}}},
+      {"sensors", {{"math", "geometry", "body", "cushion"}, {}}},
       {"sim",
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact", "control",
          "sensors", "world"},

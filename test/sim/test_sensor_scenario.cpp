@@ -144,7 +144,7 @@ TEST(SensorScenario, EveryRuleNamesKeyValueAndRule) {
        "s.altitude = 1e6: must be -10000 to 100000 m"},
       {"kind: magnetometer, rate: 5", "s.field: the key is missing"},
       {"kind: laser, rate: 5, angle_min: 0, angle_max: 1, beams: 3, range_max: 5",
-       "a laser needs a world: in the scenario"},
+       "a laser needs a world: or a ground: in the scenario"},
   };
   for (const Rule& rule : rules) {
     const std::string found = sensorComplaint(withSensor(rule.sensor));

@@ -23,9 +23,8 @@ inline double reportedRange(const LaserParameters& laser, double range) {
 /// is 0; below range_min and above range_max they are left to whoever tells them (REP 117).
 class LaserModel : public SensorModel {
  public:
-  /// @param body index of its own craft.
-  LaserModel(const LaserParameters& parameters, const SensorMount& mount, std::int32_t body,
-             const std::vector<RayTarget>& targets);
+  /// @param site of its own craft, which it does not see.
+  LaserModel(const LaserParameters& parameters, const SensorMount& mount, const SensorSite& site);
 
   std::size_t memorySize() const override { return NoiseProcess::kMemorySize; }
   std::size_t sampleSize() const override { return fan_.cosines.size(); }
@@ -44,6 +43,7 @@ class LaserModel : public SensorModel {
   Vector3 p_BS_;
   std::int32_t body_;
   const std::vector<RayTarget>& targets_;
+  const RayGround* ground_;
   BeamFan fan_;
   std::vector<HalfSpace> faces_;  // scratch
 };

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/math/vector.h"
+#include "hovercraft_sim/sensors/ray_ground.h"
 #include "hovercraft_sim/sensors/ray_scene.h"
 #include "hovercraft_sim/sensors/sensor_parameters.h"
 
@@ -56,6 +57,7 @@ struct SensorSite {
   Vector3 p_HB = Vector3::Zero();                   // m, its centre of mass in H
   double step = 0.0;                                // s, of the simulation
   const std::vector<RayTarget>* targets = nullptr;  // what lasers see; outlives the model
+  const RayGround* ground = nullptr;                // the same; none: there is nothing below
 };
 
 /// The model of a sensor. @throws nothing: the parameters were checked.

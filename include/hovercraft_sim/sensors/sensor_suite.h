@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,15 +42,21 @@ struct SensorCarrier {
   std::vector<SensorParameters> sensors;
 };
 
+/// What lasers see, besides their own craft.
+struct SensorSurroundings {
+  std::vector<RayTarget> targets;
+  std::optional<RayGround> ground;
+};
+
 /// All sensors of a run. A sensor of period k is read at the ticks k, 2k, ..., after the step, and
 /// its sample is delivered at the first tick that is not before measurement + latency. Nothing here
 /// acts on a body. States are the caller's: the suite is the same for all of them. No allocation
 /// after start().
 class HOVERCRAFT_PUBLIC SensorSuite {
  public:
-  /// @param carriers in the order of the moving bodies. @param step_ns of the simulation.
-  /// @param targets what lasers see.
-  SensorSuite(std::vector<SensorCarrier> carriers, std::vector<RayTarget> targets,
+  /// @param carriers in the order of the moving bodies. @param surroundings what lasers see.
+  /// @param step_ns of the simulation.
+  SensorSuite(std::vector<SensorCarrier> carriers, SensorSurroundings surroundings,
               std::int64_t step_ns);
   ~SensorSuite();
   SensorSuite(SensorSuite&&) noexcept;
@@ -92,7 +99,7 @@ class HOVERCRAFT_PUBLIC SensorSuite {
                           const BodyStates& bodies) const;
 
   std::vector<SensorCarrier> carriers_;
-  std::unique_ptr<std::vector<RayTarget>> targets_;  // models point to it
+  std::unique_ptr<SensorSurroundings> surroundings_;  // models point to it
   std::vector<Sensor> sensors_;
 };
 
