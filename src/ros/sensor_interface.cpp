@@ -6,7 +6,7 @@
 namespace hovercraft_ros {
 namespace {
 
-constexpr std::uint32_t kSensorQueue = 100;
+constexpr std::uint32_t kSensorQueue = 1000;  // every sample belongs in a recording
 
 }  // namespace
 
