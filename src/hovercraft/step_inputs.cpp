@@ -5,8 +5,8 @@
 namespace hovercraft {
 
 RigidBodyState<Quaternion> integrationStep(Integrator integrator,
-                                           const RigidBodyState<Quaternion>& y,
-                                           const DrivenBody& f, double h) {
+                                           const RigidBodyState<Quaternion>& y, const DrivenBody& f,
+                                           double h) {
   const FloatingPointEnvironment environment;
   return integrationStep<Quaternion, DrivenBody>(integrator, y, f, h);
 }

@@ -83,6 +83,10 @@ void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
   }
 }
 
+std::size_t ConfigReader::size() const {
+  return node_.members().size();
+}
+
 bool ConfigReader::has(const char* key) const {
   return node_.find(key) != nullptr;
 }

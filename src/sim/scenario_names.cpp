@@ -16,6 +16,7 @@ bool isLetter(char c) {
 const std::vector<std::string> kIntegratorNames = {"euler", "semi_implicit_euler", "heun", "rk4"};
 const std::vector<std::string> kOrientationNames = {"quaternion", "matrix"};
 const std::vector<std::string> kModelNames = {"planar", "spatial"};
+const std::vector<std::string> kActuatorKindNames = {"fan", "propeller", "lift_fan", "rudder"};
 const std::vector<std::string> kFrameNames = {"world", "body"};
 
 bool isGraphName(const std::string& name) {

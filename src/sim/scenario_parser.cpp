@@ -10,6 +10,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/actuator_parser.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
@@ -19,19 +20,6 @@
 
 namespace hovercraft {
 namespace {
-
-std::int64_t nanoseconds(const ConfigReader& reader, const char* key, double seconds) {
-  const double exact = seconds * static_cast<double>(kNanosecondsPerSecond);
-  if (!(exact <= kMaxNanoseconds)) {
-    reader.fail(key,
-                fmt::format("must be at most {:.0f} s", kMaxNanoseconds / kNanosecondsPerSecond));
-  }
-  const std::int64_t whole = std::llround(exact);
-  if (std::abs(exact - static_cast<double>(whole)) > kNanosecondSlack * std::abs(exact)) {
-    reader.fail(key, "must be a whole number of nanoseconds");
-  }
-  return whole;
-}
 
 Matrix3 parseInertia(const ConfigReader& vehicle) {
   const ConfigReader reader = vehicle.map("inertia");
@@ -153,24 +141,6 @@ void parseMass(const ConfigReader& reader, const ScenarioSource& source, Vehicle
   checkInertia(vehicle.mass_properties.I_BBo_B, reader.where("inertia"));
 }
 
-EngineParameters parseEngine(const ConfigReader& reader) {
-  reader.allowOnly(
-      {"position", "direction", "min_thrust", "max_thrust", "time_constant", "timeout"});
-  EngineParameters engine;
-  engine.p_HE = reader.vector("position", kCoordinate);
-  engine.direction = reader.vector("direction");
-  if (std::abs(norm(engine.direction) - 1.0) > kUnitLength) {
-    reader.fail("direction",
-                fmt::format("must have length 1 (it has {:.6g})", norm(engine.direction)));
-  }
-  engine.min_thrust = reader.number("min_thrust", kNotPositive);
-  engine.max_thrust = reader.number("max_thrust", kNotNegative);
-  engine.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
-  engine.timeout_ns = nanoseconds(reader, "timeout",
-                                  reader.numberOr(kDefaultCommandTimeout, "timeout", kNotNegative));
-  return engine;
-}
-
 void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& vehicle) {
   reader.allowOnly({"position", "rpy", "velocity", "angular_velocity"});
   vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
@@ -214,14 +184,11 @@ namespace {
 
 VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
                              const ScenarioSource& source, BodyModel model) {
-  reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "hull",
-                    "material", "visual", "initial"});
+  reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "actuators", "drag",
+                    "hull", "material", "visual", "initial"});
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
-  const ConfigReader engines = reader.map("engines");
-  engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
-  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    vehicle.engines[i] = parseEngine(engines.map(kEngineNames[i]));
-  }
+  parseEngines(reader, vehicle);
+  if (reader.has("actuators")) vehicle.actuators = parseActuators(reader.map("actuators"));
   return vehicle;
 }
 
@@ -243,7 +210,7 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
                     "wind", "seed", "vehicles", "world"});
   Scenario scenario;
   checkPhysicsVersion(reader);
-  scenario.step_ns = nanoseconds(reader, "step_size", reader.number("step_size", kPositive));
+  scenario.step_ns = wholeNanoseconds(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
       static_cast<std::size_t>(scenario.integrator), "integrator", kIntegratorNames));
   scenario.orientation = static_cast<OrientationKind>(reader.choiceOr(

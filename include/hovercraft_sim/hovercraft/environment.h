@@ -9,8 +9,8 @@ namespace hovercraft {
 
 /// The ground below a point: the plane that touches it there.
 struct GroundPoint {
-  double height = 0.0;                   // m: z in W of the ground on the vertical line of the point
-  Vector3 nhat_W = Vector3::UnitZ();     // unit normal, upward: z > 0
+  double height = 0.0;                // m: z in W of the ground on the vertical line of the point
+  Vector3 nhat_W = Vector3::UnitZ();  // unit normal, upward: z > 0
 };
 
 /// The ground as forces see it. It does not change during a step, and the same point gives the same

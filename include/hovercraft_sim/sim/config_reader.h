@@ -39,6 +39,8 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   void allowOnly(std::initializer_list<const char*> keys) const;
 
   bool has(const char* key) const;
+  /// How many keys there are.
+  std::size_t size() const;
   /// Whether there is a map behind `key`.
   bool isMap(const char* key) const;
   /// The map behind `key`.

@@ -12,6 +12,8 @@ namespace hovercraft {
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kIntegratorNames;
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kOrientationNames;
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kModelNames;
+/// The words for the kinds of actuators, in the order of ActuatorKind.
+extern HOVERCRAFT_PUBLIC const std::vector<std::string> kActuatorKindNames;
 /// The words for the frames of an external wrench, in the order of ExternalWrench::Frame.
 extern HOVERCRAFT_PUBLIC const std::vector<std::string> kFrameNames;
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft {
+
+/// A time of the scenario in ns. @param seconds the number behind `key`.
+/// @throws std::invalid_argument if it is too long or no whole number of nanoseconds.
+std::int64_t wholeNanoseconds(const ConfigReader& reader, const char* key, double seconds);
+
+/// `engines` of a craft: those that are left out have limits 0. A craft that has other actuators
+/// may leave all of them out.
+void parseEngines(const ConfigReader& craft, VehicleScenario& vehicle);
+
+/// `actuators` of a craft, by name. @throws std::invalid_argument that names key, value and rule.
+std::vector<ActuatorScenario> parseActuators(const ConfigReader& reader);
+
+/// The text of `actuators` for toYaml(), every key with its value; empty if there are none.
+std::string actuatorsYaml(const VehicleScenario& vehicle);
+
+}  // namespace hovercraft
