@@ -10,13 +10,14 @@
 
 namespace hovercraft {
 
-EngineDynamics::EngineDynamics(const std::array<EngineParameters, kEngineCount>& parameters,
+EngineDynamics::EngineDynamics(const ActuatorArray<EngineParameters>& parameters,
                                std::int64_t step_ns)
     : step_ns_(step_ns) {
   const FloatingPointEnvironment environment;
   demand(step_ns > 0, "step size must be checked before");
   const double h = toSeconds(step_ns);
-  for (std::size_t i = 0; i < kEngineCount; ++i) {
+  rules_.resize(parameters.size());
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
     const EngineParameters& engine = parameters[i];
     Rule& rule = rules_[i];
     rule.min_thrust = engine.min_thrust;
@@ -32,19 +33,30 @@ EngineDynamics::EngineDynamics(const std::array<EngineParameters, kEngineCount>&
   }
 }
 
-ThrustCourse EngineDynamics::course(const EngineStates& states, Tick tick) const {
-  ThrustCourse course;
-  for (int i = 0; i < kEngineCount; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const Rule& rule = rules_[index];
-    const double demanded = demandedThrust(i, states[index], tick);
-    double lead = rule.lags ? states[index].thrust - demanded : 0.0;
-    if (std::abs(lead) < kSettledThrust) lead = 0.0;
-    course.start[i] = demanded + lead;
-    course.middle[i] = demanded + lead * rule.half_decay;
-    course.end[i] = demanded + lead * rule.full_decay;
+void EngineDynamics::course(const EngineStates& states, Tick tick, ThrustCourse& course) const {
+  const std::size_t count = rules_.size();
+  if (course.start.size() != count) {
+    for (auto* values : {&course.start, &course.middle, &course.end}) values->resize(count);
   }
-  return course;
+  const EngineState* state = states.begin();
+  double* start = course.start.begin();
+  double* middle = course.middle.begin();
+  double* end = course.end.begin();
+  for (const Rule& rule : rules_) {
+    const double demanded = demandOf(rule, *state, tick);
+    double lead = rule.lags ? state->thrust - demanded : 0.0;
+    if (std::abs(lead) < kSettledThrust) lead = 0.0;
+    *start = demanded + lead;
+    *middle = demanded + lead * rule.half_decay;
+    *end = demanded + lead * rule.full_decay;
+    ++state, ++start, ++middle, ++end;
+  }
+}
+
+ThrustCourse EngineDynamics::course(const EngineStates& states, Tick tick) const {
+  ThrustCourse result;
+  course(states, tick, result);
+  return result;
 }
 
 EngineGeometry::EngineGeometry(const std::array<EngineParameters, kEngineCount>& parameters,

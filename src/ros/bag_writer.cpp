@@ -115,6 +115,9 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
     write(topic(messages, kTwistTopic), stamp, messages.twist());
     write(topic(messages, kOdomTopic), stamp, messages.odom());
     write(topic(messages, kEnginesTopic), stamp, messages.engines());
+    if (messages.hasActuators()) {
+      write(topic(messages, kActuatorsTopic), stamp, messages.actuators());
+    }
     write(topic(messages, kStateTopic), stamp, messages.state());
     if (messages.hasCushion()) write(topic(messages, kCushionTopic), stamp, messages.cushion());
     if (messages.hasTransform()) transforms_.transforms.push_back(messages.transform());

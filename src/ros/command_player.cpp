@@ -6,6 +6,7 @@
 #include <hovercraft_sim/ThrustCommand.h>
 #include <ros/transport_hints.h>
 
+#include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
 namespace hovercraft_ros {
@@ -37,12 +38,17 @@ CommandPlayer::CommandPlayer(const ros::NodeHandle& handle, const hovercraft::Sc
       settle_ticks_(hovercraft::firstTickAt(settle_ns, scenario.step_ns)),
       repeat_ticks_(std::max<hovercraft::Tick>(1, kRepeatNs / scenario.step_ns)),
       wanted_subscribers_(wanted_subscribers),
-      thrusts_(scenario.vehicles.size(), hovercraft::Vector3::Zero()),
+      craft_(scenario.vehicles),
+      held_(scenario.vehicles.size(), {0, 0, 0, {}}),
       commanded_(scenario.vehicles.size(), false),
       time_(scenario.step_ns) {
   for (const hovercraft::VehicleScenario& craft : scenario.vehicles) {
     ros::NodeHandle own(handle, craft.name);
     publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kPlayerQueue));
+    actuator_publishers_.push_back(
+        craft.actuators.empty()
+            ? ros::Publisher()
+            : own.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, kPlayerQueue));
   }
   ros::NodeHandle first(handle, scenario.vehicles.front().name);
   state_subscriber_ = first.subscribe(kStateTopic, kPlayerQueue, &CommandPlayer::onState, this,
@@ -71,12 +77,7 @@ void CommandPlayer::onState(const hovercraft_sim::State& state) {
 
 void CommandPlayer::takeDue(hovercraft::Tick tick) {
   while (next_ && next_->tick <= tick) {
-    for (int i = 0; i < hovercraft::kEngineCount; ++i) {
-      const auto engine = static_cast<hovercraft::EngineId>(i);
-      if ((next_->engines & hovercraft::maskOf(engine)) != 0) {
-        thrusts_[next_->vehicle][i] = next_->thrusts[i];
-      }
-    }
+    hold(*next_, held_[next_->vehicle]);
     commanded_[next_->vehicle] = true;
     last_command_ = next_->tick;
     next_ = source_->next();
@@ -86,12 +87,11 @@ void CommandPlayer::takeDue(hovercraft::Tick tick) {
 void CommandPlayer::send(const ros::Time& stamp) {
   for (std::size_t vehicle = 0; vehicle < publishers_.size(); ++vehicle) {
     if (!commanded_[vehicle]) continue;
-    hovercraft_sim::ThrustCommand command;
-    command.header.stamp = stamp;
-    command.rear = thrusts_[vehicle][0];
-    command.left = thrusts_[vehicle][1];
-    command.right = thrusts_[vehicle][2];
-    publishers_[vehicle].publish(command);
+    const hovercraft::Command& held = held_[vehicle];
+    if (held.engines > hovercraft::kAllEngines) {
+      actuator_publishers_[vehicle].publish(toActuatorCommand(held, craft_[vehicle], stamp));
+    }
+    publishers_[vehicle].publish(toThrustCommand(held, stamp));
   }
 }
 

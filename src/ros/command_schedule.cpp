@@ -31,6 +31,25 @@ std::optional<Tick> CommandSchedule::next() const {
   return waiting_.begin()->first;
 }
 
+namespace {
+
+template <class Require>
+void checkActuators(const AppliedCommand& wanted, const hovercraft::VehicleScenario& craft,
+                    const Require& require) {
+  require(wanted.ids.size() == wanted.values.size(), "ids and values: must be as many");
+  std::size_t least = hovercraft::kFirstActuator;
+  const std::size_t end = hovercraft::kFirstActuator + craft.actuators.size();
+  for (std::size_t i = 0; i < wanted.ids.size(); ++i) {
+    const std::size_t id = wanted.ids[i];
+    require(id >= least && id < end,
+            fmt::format("ids[{}] = {}: must be an actuator of the craft, ascending", i, id));
+    require(std::isfinite(wanted.values[i]), "values: must be finite");
+    least = id + 1;
+  }
+}
+
+}  // namespace
+
 std::vector<Command> scheduledCommands(const hovercraft::Scenario& scenario,
                                        const hovercraft_sim::ScheduleCommands::Request& request,
                                        std::uint32_t episode, Tick tick) {
@@ -47,12 +66,12 @@ std::vector<Command> scheduledCommands(const hovercraft::Scenario& scenario,
                 static_cast<Tick>(wanted.tick) >= tick,
             fmt::format("tick = {}: must be {}, where the run stands, or later, and fit 63 bits",
                         wanted.tick, tick));
-    require(wanted.engines != 0 && wanted.engines <= hovercraft::kAllEngines,
-            fmt::format("engines = {}: must be 1 to 7", wanted.engines));
+    require(
+        (wanted.engines != 0 || !wanted.ids.empty()) && wanted.engines <= hovercraft::kAllEngines,
+        fmt::format("engines = {}: must be 1 to 7", wanted.engines));
+    checkActuators(wanted, scenario.vehicles[vehicle], require);
     require(std::isfinite(wanted.rear) && std::isfinite(wanted.left) && std::isfinite(wanted.right),
             "a thrust must be finite");
-    require(wanted.ids.empty() && wanted.values.empty(),
-            "ids, values: must be empty: the craft has no actuators but its engines");
     commands.push_back(toCommand(wanted, vehicle));
   }
   return commands;

@@ -42,6 +42,7 @@ namespace streams_of_bag {
 /// What is needed to make a message of one vehicle a command.
 struct VehicleTopics {
   std::size_t vehicle;
+  hovercraft::VehicleScenario craft;
   std::string applied;               // AppliedCommand
   std::string thrust;                // ThrustCommand
   std::vector<std::string> engines;  // Float64 of rear, left, right
@@ -51,7 +52,8 @@ std::vector<VehicleTopics> topicsOf(const hovercraft::Scenario& scenario) {
   std::vector<VehicleTopics> all;
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     const std::string space = "/" + scenario.vehicles[vehicle].name + "/";
-    VehicleTopics topics{vehicle, space + kCommandsTopic, space + kThrustTopic, {}};
+    VehicleTopics topics{
+        vehicle, scenario.vehicles[vehicle], space + kCommandsTopic, space + kThrustTopic, {}};
     for (const char* engine : kEngineNames) topics.engines.push_back(topics.thrust + "/" + engine);
     all.push_back(topics);
   }
@@ -111,7 +113,7 @@ class VehicleStream {
   }
 
   Command appliedOf(const rosbag::MessageInstance& instance) {
-    const auto message = readAppliedCommand(path_, instance);
+    const auto message = readAppliedCommand(path_, instance, topics_.craft);
     if (first_episode_.value_or(message->episode) != message->episode) {
       failAt(path_, instance,
              fmt::format("episode {}: must be episode {} as before; a bag with a reset is for the "

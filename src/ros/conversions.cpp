@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/conversions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
@@ -9,6 +10,13 @@ namespace {
 
 // Distance (-) of a direction from -x below which it counts as -x: its square is no normal number.
 constexpr double kHalfTurn = 1e-150;
+
+/// Makes it a command for one actuator more.
+void addValue(hovercraft::Command& command, std::size_t id, double value) {
+  if (command.thrusts.size() <= id) command.thrusts.resize(id + 1);
+  command.thrusts[id] = value;
+  command.engines = static_cast<hovercraft::EngineMask>(command.engines | hovercraft::maskOf(id));
+}
 
 }  // namespace
 
@@ -87,10 +95,38 @@ hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report) {
 hovercraft_sim::AppliedCommand toMessage(const Command& command) {
   hovercraft_sim::AppliedCommand message;
   message.tick = static_cast<std::uint64_t>(command.tick);
-  message.engines = command.engines;
+  message.engines = static_cast<std::uint8_t>(command.engines & hovercraft::kAllEngines);
   message.rear = command.thrusts[0];
   message.left = command.thrusts[1];
   message.right = command.thrusts[2];
+  for (std::size_t id = hovercraft::kFirstActuator; id < command.thrusts.size(); ++id) {
+    if ((command.engines & hovercraft::maskOf(id)) == 0) continue;
+    message.ids.push_back(static_cast<std::uint8_t>(id));
+    message.values.push_back(command.thrusts[id]);
+  }
+  return message;
+}
+
+hovercraft_sim::ThrustCommand toThrustCommand(const Command& command, const ros::Time& stamp) {
+  hovercraft_sim::ThrustCommand message;
+  message.header.stamp = stamp;
+  message.rear = command.thrusts[0];
+  message.left = command.thrusts[1];
+  message.right = command.thrusts[2];
+  return message;
+}
+
+hovercraft_sim::ActuatorCommand toActuatorCommand(const Command& command,
+                                                  const hovercraft::VehicleScenario& craft,
+                                                  const ros::Time& stamp) {
+  hovercraft_sim::ActuatorCommand message;
+  message.header.stamp = stamp;
+  for (std::size_t i = 0; i < craft.actuators.size(); ++i) {
+    const std::size_t id = hovercraft::kFirstActuator + i;
+    if ((command.engines & hovercraft::maskOf(id)) == 0) continue;
+    message.names.push_back(craft.actuators[i].name);
+    message.values.push_back(command.thrusts[id]);
+  }
   return message;
 }
 
@@ -104,14 +140,44 @@ std::optional<Command> toCommand(const hovercraft_sim::ThrustCommand& message, s
 std::optional<Command> toCommand(double thrust, hovercraft::EngineId engine, std::size_t vehicle,
                                  hovercraft::Tick tick) {
   if (!std::isfinite(thrust)) return std::nullopt;
-  Command command{tick, vehicle, hovercraft::maskOf(engine), Vector3::Zero()};
-  command.thrusts[static_cast<int>(engine)] = thrust;
+  Command command{tick, vehicle, hovercraft::maskOf(engine), {}};
+  command.thrusts[engine] = thrust;
   return command;
 }
 
 Command toCommand(const hovercraft_sim::AppliedCommand& message, std::size_t vehicle) {
-  return {static_cast<hovercraft::Tick>(message.tick), vehicle, message.engines,
-          Vector3(message.rear, message.left, message.right)};
+  Command command{static_cast<hovercraft::Tick>(message.tick), vehicle, message.engines,
+                  Vector3(message.rear, message.left, message.right)};
+  for (std::size_t i = 0; i < message.ids.size(); ++i) {
+    addValue(command, message.ids[i], message.values[i]);
+  }
+  return command;
+}
+
+std::optional<Command> toCommand(double value, std::size_t id, std::size_t vehicle,
+                                 hovercraft::Tick tick) {
+  if (!std::isfinite(value)) return std::nullopt;
+  Command command{tick, vehicle, 0, {}};
+  addValue(command, id, value);
+  return command;
+}
+
+std::optional<Command> toCommand(const hovercraft_sim::ActuatorCommand& message,
+                                 const hovercraft::VehicleScenario& craft, std::size_t vehicle,
+                                 hovercraft::Tick tick) {
+  if (message.names.empty() || message.names.size() != message.values.size()) return std::nullopt;
+  Command command{tick, vehicle, 0, {}};
+  for (std::size_t i = 0; i < message.names.size(); ++i) {
+    const auto found =
+        std::find_if(craft.actuators.begin(), craft.actuators.end(),
+                     [&](const auto& actuator) { return actuator.name == message.names[i]; });
+    if (found == craft.actuators.end() || !std::isfinite(message.values[i])) return std::nullopt;
+    const std::size_t id =
+        hovercraft::kFirstActuator + static_cast<std::size_t>(found - craft.actuators.begin());
+    if ((command.engines & hovercraft::maskOf(id)) != 0) return std::nullopt;
+    addValue(command, id, message.values[i]);
+  }
+  return command;
 }
 
 }  // namespace hovercraft_ros

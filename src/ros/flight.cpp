@@ -25,6 +25,7 @@
 #include "hovercraft_sim/sim/compare.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
 
@@ -66,7 +67,7 @@ class HeldThrusts {
   HeldThrusts(const hovercraft::VehicleScenario& craft, std::int64_t step_ns, std::uint32_t episode)
       : episode_(episode) {
     request_.vehicle = craft.name;
-    for (const hovercraft::EngineParameters& engine : craft.engines) {
+    for (const hovercraft::EngineParameters& engine : parametersOf(craft)) {
       if (engine.timeout_ns == 0) continue;
       const Tick half = std::max<Tick>(1, engine.timeout_ns / step_ns / 2);
       repeat_ = repeat_ ? std::min(*repeat_, half) : half;
@@ -80,13 +81,7 @@ class HeldThrusts {
   }
 
   void change(const hovercraft::Command& command, Tick tick) {
-    held_.engines = static_cast<hovercraft::EngineMask>(held_.engines | command.engines);
-    for (int i = 0; i < hovercraft::kEngineCount; ++i) {
-      const auto engine = static_cast<hovercraft::EngineId>(i);
-      if ((command.engines & hovercraft::maskOf(engine)) != 0) {
-        held_.thrusts[i] = command.thrusts[i];
-      }
-    }
+    hold(command, held_);
     add(tick);
   }
 
@@ -102,7 +97,7 @@ class HeldThrusts {
   hovercraft_sim::ScheduleCommands::Request request_;
   std::uint32_t episode_;
   std::optional<Tick> repeat_;  // ticks; none: no engine of the craft times out
-  hovercraft::Command held_{0, 0, 0, Vector3::Zero()};
+  hovercraft::Command held_{0, 0, 0, {}};
 };
 
 Tick ticksOf(double seconds, std::int64_t step_ns, const char* name) {
@@ -178,18 +173,14 @@ void Flight::answer(std::size_t vehicle, const hovercraft_sim::State& state) {
   const auto tick = static_cast<Tick>(state.tick);
   Played& played = *played_;
   for (; played.next && played.next->tick <= tick; played.next = played.source->next()) {
-    for (int i = 0; i < hovercraft::kEngineCount; ++i) {
-      const auto engine = static_cast<hovercraft::EngineId>(i);
-      if ((played.next->engines & hovercraft::maskOf(engine)) == 0) continue;
-      played.thrusts[played.next->vehicle][i] = played.next->thrusts[i];
-    }
+    hold(*played.next, played.held[played.next->vehicle]);
   }
-  hovercraft_sim::ThrustCommand command;
-  command.header.stamp = state.header.stamp;
-  command.rear = played.thrusts[vehicle].x();
-  command.left = played.thrusts[vehicle].y();
-  command.right = played.thrusts[vehicle].z();
-  publishers_[vehicle].publish(command);
+  const hovercraft::Command& held = played.held[vehicle];
+  const hovercraft::VehicleScenario& craft = scenario_.vehicles[vehicle];
+  if (!craft.actuators.empty()) {
+    actuator_publishers_[vehicle].publish(toActuatorCommand(held, craft, state.header.stamp));
+  }
+  publishers_[vehicle].publish(toThrustCommand(held, state.header.stamp));
 }
 
 hovercraft_sim::ScheduleCommands::Response Flight::schedule(
@@ -234,11 +225,15 @@ void Flight::answerStates(const std::string& commands) {
   Played played;
   played.source = openCommands(commands, scenario_);
   played.next = played.source->next();
-  played.thrusts.assign(scenario_.vehicles.size(), Vector3::Zero());
+  played.held.assign(scenario_.vehicles.size(), {0, 0, 0, {}});
   played_ = std::move(played);
   for (const hovercraft::VehicleScenario& craft : scenario_.vehicles) {
     ros::NodeHandle own(handle_, craft.name);
     publishers_.push_back(own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kFlightQueue));
+    actuator_publishers_.push_back(
+        craft.actuators.empty()
+            ? ros::Publisher()
+            : own.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, kFlightQueue));
   }
   waitUntil("somebody who takes the thrusts of every craft", [this] {
     return std::all_of(publishers_.begin(), publishers_.end(), [](const ros::Publisher& publisher) {

@@ -9,6 +9,7 @@
 #include <ros/init.h>
 
 #include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -270,11 +271,13 @@ void HovercraftNode::reportCommands(diagnostic_updater::DiagnosticStatusWrapper&
   const std::uint64_t drops = vehicles_[vehicle]->droppedCommands();
   const std::uint64_t saturations = vehicles_[vehicle]->saturatedCommands();
   bool timed_out = false;
-  for (std::size_t engine = 0; engine < hovercraft::kEngineNames.size(); ++engine) {
-    const auto state = run_.simulation().engineReport(vehicle, static_cast<int>(engine));
+  const hovercraft::VehicleScenario& craft = run_.simulation().scenario().vehicles[vehicle];
+  const std::size_t count = hovercraft::kFirstActuator + craft.actuators.size();
+  for (std::size_t id = 0; id < count; ++id) {
+    if (id < hovercraft::kFirstActuator && !craft.has_engine[id]) continue;
+    const auto state = run_.simulation().engineReport(vehicle, static_cast<int>(id));
     timed_out = timed_out || state.timed_out;
-    status.addf(std::string("Age of command, ") + hovercraft::kEngineNames[engine] + " (s)", "%.3f",
-                state.command_age);
+    status.addf("Age of command, " + actuatorName(craft, id) + " (s)", "%.3f", state.command_age);
   }
   if (drops > reported_drops_[vehicle]) {
     status.summary(DiagnosticStatus::WARN, "Dropped commands");

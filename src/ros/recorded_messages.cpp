@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/recorded_messages.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
@@ -55,20 +56,33 @@ void checkWrench(const Place& place, const RunEvent& event) {
 }  // namespace
 
 boost::shared_ptr<const AppliedCommand> readAppliedCommand(
-    const std::string& path, const rosbag::MessageInstance& instance) {
+    const std::string& path, const rosbag::MessageInstance& instance,
+    const hovercraft::VehicleScenario& craft) {
+  using hovercraft::kFirstActuator;
   const Place place = {path, instance};
   auto message = messageAs<AppliedCommand>(path, instance);
   place.requireTick("tick", message->tick);
-  place.require(message->engines != 0 && message->engines <= hovercraft::kAllEngines,
-                fmt::format("engines = {}: must be 1 to 7", message->engines));
+  const bool is_for_engines = message->engines != 0 || message->ids.empty();
+  place.require(
+      (!is_for_engines || message->engines != 0) && message->engines <= hovercraft::kAllEngines,
+      fmt::format("engines = {}: must be 1 to 7", message->engines));
   place.require(
       std::isfinite(message->rear) && std::isfinite(message->left) && std::isfinite(message->right),
       "a thrust must be finite");
   place.require(message->ids.size() == message->values.size(),
                 fmt::format("ids and values: must be as many ({} and {} are there)",
                             message->ids.size(), message->values.size()));
-  place.require(message->ids.empty(),
-                "ids: must be empty: the craft has no actuators but its engines");
+  std::size_t least = hovercraft::kFirstActuator;
+  for (const std::uint8_t id : message->ids) {
+    place.require(id >= least, fmt::format("ids: must be 3 or more, ascending ({} is there)", id));
+    least = id + std::size_t{1};
+  }
+  place.require(least <= kFirstActuator + craft.actuators.size(),
+                fmt::format("ids: must be below {}: the craft has {} actuators besides its engines",
+                            kFirstActuator + craft.actuators.size(), craft.actuators.size()));
+  place.require(std::all_of(message->values.begin(), message->values.end(),
+                            [](double value) { return std::isfinite(value); }),
+                "values: must be finite");
   return message;
 }
 

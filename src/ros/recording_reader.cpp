@@ -159,8 +159,8 @@ class Reader {
   }
 
   void readCommand(const rosbag::MessageInstance& instance) {
-    const auto message = readAppliedCommand(path_, instance);
     const std::size_t vehicle = vehicleOf(instance);
+    const auto message = readAppliedCommand(path_, instance, recording_.scenario.vehicles[vehicle]);
     if (!commands_[{message->episode, vehicle}].add(message->number)) failAsTwoRuns(instance);
     recording_.commands.push_back({timeOf(*message), toCommand(*message, vehicle)});
   }

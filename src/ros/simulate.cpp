@@ -25,6 +25,7 @@
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/sensors_csv.h"
 #include "hovercraft_sim/sim/states_csv.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
 
@@ -131,12 +132,13 @@ void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scena
                     std::ostream& messages) {
   for (const hovercraft::EngineTimeout& timeout : summary.timeouts) {
     const hovercraft::VehicleScenario& vehicle = scenario.vehicles[timeout.vehicle];
-    const auto engine = static_cast<std::size_t>(timeout.engine);
+    const auto id = static_cast<std::size_t>(timeout.engine);
+    const bool is_engine = id < hovercraft::kFirstActuator;
     messages << fmt::format(
-        "{}: engine {} timed out at {} s: {:g} N were commanded, and then nothing for {} s",
-        vehicle.name, hovercraft::kEngineNames[engine],
+        "{}: {} {} timed out at {} s: {:g}{} were commanded, and then nothing for {} s",
+        vehicle.name, is_engine ? "engine" : "actuator", actuatorName(vehicle, id),
         hovercraft::secondsText(timeout.first_tick * scenario.step_ns), timeout.first_commanded,
-        hovercraft::secondsText(vehicle.engines[engine].timeout_ns));
+        is_engine ? " N" : "", hovercraft::secondsText(parametersOf(vehicle)[id].timeout_ns));
     if (timeout.count > 1) messages << fmt::format(" (the first of {} times)", timeout.count);
     messages << "; --hold keeps commands\n";
   }
@@ -176,6 +178,7 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
   if (request.hold) {
     for (hovercraft::VehicleScenario& vehicle : scenario.vehicles) {
       for (hovercraft::EngineParameters& engine : vehicle.engines) engine.timeout_ns = 0;
+      for (auto& actuator : vehicle.actuators) actuator.motion.timeout_ns = 0;
     }
   }
   hovercraft::RunPlan plan;

@@ -18,10 +18,11 @@ constexpr std::uint32_t kCommandQueue = 1000;  // every accepted command belongs
 using hovercraft::kEngineNames;
 
 bool exceedsLimits(const hovercraft::Command& command, const hovercraft::VehicleScenario& craft) {
-  for (int i = 0; i < hovercraft::kEngineCount; ++i) {
-    const auto& limits = craft.engines[static_cast<std::size_t>(i)];
-    const bool addressed =
-        (command.engines & hovercraft::maskOf(static_cast<hovercraft::EngineId>(i))) != 0;
+  for (std::size_t i = 0; i < command.thrusts.size(); ++i) {
+    const hovercraft::EngineParameters& limits =
+        i < hovercraft::kFirstActuator ? craft.engines[i]
+                                       : craft.actuators[i - hovercraft::kFirstActuator].motion;
+    const bool addressed = (command.engines & hovercraft::maskOf(i)) != 0;
     if (addressed &&
         (command.thrusts[i] < limits.min_thrust || command.thrusts[i] > limits.max_thrust)) {
       return true;
@@ -49,7 +50,11 @@ VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun&
     cushion_ = advertise(own, kCushionTopic, &VehicleMessages::cushion, latched);
   }
   commands_ = own.advertise<hovercraft_sim::AppliedCommand>(kCommandsTopic, kCommandQueue);
+  if (messages_.hasActuators()) {
+    actuators_ = advertise(own, kActuatorsTopic, &VehicleMessages::actuators, latched);
+  }
   subscribe(own);
+  subscribeActuators(own);
 }
 
 template <class Message>
@@ -67,6 +72,7 @@ NewcomerPublisher<Message> VehicleInterface::advertise(ros::NodeHandle& handle, 
 
 void VehicleInterface::subscribe(ros::NodeHandle& handle) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  const hovercraft::VehicleScenario& craft = run_.simulation().scenario().vehicles[vehicle_];
   const std::string all = handle.resolveName(kThrustTopic);
   const boost::function<void(const hovercraft_sim::ThrustCommand&)> on_thrust =
       [this, all](const hovercraft_sim::ThrustCommand& message) {
@@ -75,6 +81,7 @@ void VehicleInterface::subscribe(ros::NodeHandle& handle) {
   subscribers_.push_back(handle.subscribe<hovercraft_sim::ThrustCommand>(
       kThrustTopic, kThrustQueue, on_thrust, ros::VoidConstPtr(), hints));
   for (int i = 0; i < hovercraft::kEngineCount; ++i) {
+    if (!craft.has_engine[static_cast<std::size_t>(i)]) continue;
     const auto engine = static_cast<hovercraft::EngineId>(i);
     const std::string relative =
         std::string(kThrustTopic) + "/" + kEngineNames[static_cast<std::size_t>(i)];
@@ -89,9 +96,36 @@ void VehicleInterface::subscribe(ros::NodeHandle& handle) {
   }
 }
 
+void VehicleInterface::subscribeActuators(ros::NodeHandle& handle) {
+  const hovercraft::VehicleScenario& craft = run_.simulation().scenario().vehicles[vehicle_];
+  if (craft.actuators.empty()) return;
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  const std::string all = handle.resolveName(kActuatorCommandTopic);
+  const boost::function<void(const hovercraft_sim::ActuatorCommand&)> on_all =
+      [this, &craft, all](const hovercraft_sim::ActuatorCommand& message) {
+        take(toCommand(message, craft, vehicle_, run_.simulation().tick()), all,
+             message.header.stamp, "names and values must be of actuators, each once and finite");
+      };
+  subscribers_.push_back(handle.subscribe<hovercraft_sim::ActuatorCommand>(
+      kActuatorCommandTopic, kThrustQueue, on_all, ros::VoidConstPtr(), hints));
+  for (std::size_t i = 0; i < craft.actuators.size(); ++i) {
+    const std::size_t id = hovercraft::kFirstActuator + i;
+    const std::string relative = std::string(kActuatorsTopic) + "/" + craft.actuators[i].name;
+    const std::string topic = handle.resolveName(relative);
+    const boost::function<void(const std_msgs::Float64&)> on_value =
+        [this, id, topic](const std_msgs::Float64& message) {
+          take(toCommand(message.data, id, vehicle_, run_.simulation().tick()), topic, std::nullopt,
+               "a value must be finite");
+        };
+    subscribers_.push_back(handle.subscribe<std_msgs::Float64>(relative, kThrustQueue, on_value,
+                                                               ros::VoidConstPtr(), hints));
+  }
+}
+
 void VehicleInterface::take(const std::optional<hovercraft::Command>& command,
-                            const std::string& topic, const std::optional<ros::Time>& stamp) {
-  const char* refusal = command ? owner_.take(*command, stamp) : "a thrust must be finite";
+                            const std::string& topic, const std::optional<ros::Time>& stamp,
+                            const char* rule) {
+  const char* refusal = command ? owner_.take(*command, stamp) : rule;
   if (refusal != nullptr) {
     ++dropped_commands_;
     if (drop_warnings_.isDue(steadyNow())) {
@@ -117,6 +151,7 @@ void VehicleInterface::noteSaturation(const hovercraft::Command& command,
 std::vector<std::string> VehicleInterface::topics() const {
   std::vector<std::string> names = {pose_.topic(),    twist_.topic(), odom_.topic(),
                                     engines_.topic(), state_.topic(), commands_.getTopic()};
+  if (messages_.hasActuators()) names.push_back(actuators_.topic());
   if (messages_.hasCushion()) names.push_back(cushion_.topic());
   return names;
 }
@@ -126,6 +161,7 @@ void VehicleInterface::publish() {
   twist_.publish(messages_.twist());
   odom_.publish(messages_.odom());
   engines_.publish(messages_.engines());
+  if (messages_.hasActuators()) actuators_.publish(messages_.actuators());
   state_.publish(messages_.state());
   if (messages_.hasCushion()) cushion_.publish(messages_.cushion());
 }

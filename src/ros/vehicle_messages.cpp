@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 
 namespace hovercraft_ros {
 
@@ -26,12 +27,23 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
   transform_.child_frame_id = base_frame;
   engines_.header.frame_id = base_frame;
   cushion_.header.frame_id = base_frame;
+  actuators_.header.frame_id = base_frame;
+  for (const hovercraft::ActuatorScenario& actuator : description_.actuators) {
+    hovercraft_sim::ActuatorStatus status;
+    status.name = actuator.name;
+    status.id = static_cast<std::uint8_t>(hovercraft::kFirstActuator + actuators_.actuators.size());
+    status.kind = hovercraft::actuatorKindNames()[static_cast<std::size_t>(actuator.kind)];
+    status.efficiency = 1.0;
+    actuators_.actuators.push_back(status);
+  }
+  state_.actuators.resize(description_.actuators.size());
   state_.header.frame_id = frames_.world;
 }
 
 void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
   for (std_msgs::Header* header : {&pose_.header, &twist_.header, &odom_.header, &transform_.header,
-                                   &engines_.header, &state_.header, &cushion_.header}) {
+                                   &engines_.header, &actuators_.header, &state_.header,
+                                   &cushion_.header}) {
     header->stamp = place.stamp;
   }
   const hovercraft::Motion motion = simulation.motion(vehicle_);
@@ -58,6 +70,7 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   state_.momentum = toVector3Message(motion.momentum_W);
   state_.angular_momentum = toVector3Message(motion.angular_momentum_W);
   state_.thrust = {engines_.rear.applied, engines_.left.applied, engines_.right.applied};
+  fillActuators(simulation);
   state_.energy = motion.energy;
   enter(place.episode);
   state_.commands = commands_;
@@ -81,6 +94,19 @@ void VehicleMessages::fillCushion(const hovercraft::Simulation& simulation) {
   cushion_.power = cushion_report_.power;
 }
 
+void VehicleMessages::fillActuators(const hovercraft::Simulation& simulation) {
+  for (std::size_t i = 0; i < actuators_.actuators.size(); ++i) {
+    hovercraft_sim::ActuatorStatus& status = actuators_.actuators[i];
+    const auto report = simulation.engineReport(vehicle_, status.id);
+    status.commanded = report.commanded;
+    status.applied = report.applied;
+    status.saturated = static_cast<std::uint8_t>(report.saturated);
+    status.timed_out = static_cast<std::uint8_t>(report.timed_out);
+    status.age = report.command_age;
+    state_.actuators[i] = report.applied;
+  }
+}
+
 /// Commands are counted anew in each episode.
 void VehicleMessages::enter(std::uint32_t episode) {
   if (episode != episode_) commands_ = 0;
@@ -102,6 +128,7 @@ std::vector<geometry_msgs::TransformStamped> VehicleMessages::engineFrames(
     const ros::Time& stamp) const {
   std::vector<geometry_msgs::TransformStamped> frames;
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
+    if (!description_.has_engine[i]) continue;
     const hovercraft::EngineParameters& engine = description_.engines[i];
     geometry_msgs::TransformStamped frame;
     frame.header.stamp = stamp;

@@ -6,6 +6,14 @@
 
 namespace hovercraft {
 
+void hold(const Command& command, Command& held) {
+  if (held.thrusts.size() < command.thrusts.size()) held.thrusts.resize(command.thrusts.size());
+  for (std::size_t id = 0; id < command.thrusts.size(); ++id) {
+    if ((command.engines & maskOf(id)) != 0) held.thrusts[id] = command.thrusts[id];
+  }
+  held.engines = static_cast<EngineMask>(held.engines | command.engines);
+}
+
 void CommandLog::push(const Command& command) {
   demand(empty() || waiting_.back().tick <= command.tick, "commands must come in order of ticks");
   if (2 * next_ >= waiting_.size()) {  // each command is moved once at most, on the average

@@ -87,6 +87,10 @@ void ConfigReader::allowOnly(const std::vector<std::string>& keys) const {
   }
 }
 
+std::size_t ConfigReader::size() const {
+  return node_.members().size();
+}
+
 bool ConfigReader::has(const char* key) const {
   return node_.find(key) != nullptr;
 }

@@ -4,6 +4,7 @@
 
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft {
 namespace {
@@ -14,12 +15,11 @@ class TimeoutWatch {
   explicit TimeoutWatch(const Simulation& simulation) : simulation_(simulation) {
     const Scenario& scenario = simulation.scenario();
     for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
-      for (int engine = 0; engine < kEngineCount; ++engine) {
-        const auto& parameters =
-            scenario.vehicles[vehicle].engines[static_cast<std::size_t>(engine)];
-        if (parameters.timeout_ns == 0) continue;
-        const Tick ticks = firstTickAt(parameters.timeout_ns, scenario.step_ns);
-        engines_.push_back({{vehicle, engine, 0, 0, 0.0}, ticks, false});
+      const auto parameters = parametersOf(scenario.vehicles[vehicle]);
+      for (std::size_t id = 0; id < parameters.size(); ++id) {
+        if (parameters[id].timeout_ns == 0) continue;
+        const Tick ticks = firstTickAt(parameters[id].timeout_ns, scenario.step_ns);
+        engines_.push_back({{vehicle, static_cast<int>(id), 0, 0, 0.0}, ticks, false});
       }
     }
   }

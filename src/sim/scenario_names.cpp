@@ -28,6 +28,11 @@ const std::vector<std::string>& modelNames() {
   return names;
 }
 
+const std::vector<std::string>& actuatorKindNames() {
+  static const std::vector<std::string> names = {"fan", "propeller", "lift_fan", "rudder"};
+  return names;
+}
+
 const std::vector<std::string>& tfSourceNames() {
   static const std::vector<std::string> names = {"truth", "odometry", "none"};
   return names;

@@ -10,6 +10,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/actuator_parser.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/cushion_parser.h"
 #include "hovercraft_sim/sim/ground_parser.h"
@@ -144,24 +145,6 @@ void parseMass(const ConfigReader& reader, const ScenarioSource& source, Vehicle
   checkInertia(vehicle.mass_properties.I_BBo_B, reader.where("inertia"));
 }
 
-EngineParameters parseEngine(const ConfigReader& reader) {
-  reader.allowOnly(
-      {"position", "direction", "min_thrust", "max_thrust", "time_constant", "timeout"});
-  EngineParameters engine;
-  engine.p_HE = reader.vector("position", kCoordinate);
-  engine.direction = reader.vector("direction");
-  if (std::abs(norm(engine.direction) - 1.0) > kUnitLength) {
-    reader.fail("direction",
-                fmt::format("must have length 1 (it has {:.6g})", norm(engine.direction)));
-  }
-  engine.min_thrust = reader.number("min_thrust", kNotPositive);
-  engine.max_thrust = reader.number("max_thrust", kNotNegative);
-  engine.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
-  engine.timeout_ns = nanosecondsOf(
-      reader, "timeout", reader.numberOr(kDefaultCommandTimeout, "timeout", kNotNegative));
-  return engine;
-}
-
 void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& vehicle) {
   reader.allowOnly({"position", "rpy", "velocity", "angular_velocity"});
   vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
@@ -205,14 +188,11 @@ namespace {
 
 VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
                              const ScenarioSource& source, BodyModel model) {
-  reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "drag", "hull",
-                    "material", "visual", "initial", "cushion", "sensors", "tf"});
+  reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "actuators", "drag",
+                    "hull", "material", "visual", "initial", "cushion", "sensors", "tf"});
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
-  const ConfigReader engines = reader.map("engines");
-  engines.allowOnly({kEngineNames[0], kEngineNames[1], kEngineNames[2]});
-  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    vehicle.engines[i] = parseEngine(engines.map(kEngineNames[i]));
-  }
+  parseEngines(reader, vehicle);
+  if (reader.has("actuators")) vehicle.actuators = parseActuators(reader.map("actuators"));
   vehicle.cushion = parseCushion(reader);
   return vehicle;
 }

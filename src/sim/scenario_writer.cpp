@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/actuator_parser.h"
 #include "hovercraft_sim/sim/cushion_parser.h"
 #include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
@@ -63,8 +64,10 @@ std::string massText(const VehicleScenario& vehicle) {
 }
 
 std::string engineText(const VehicleScenario& vehicle) {
+  if (!vehicle.has_engine[0] && !vehicle.has_engine[1] && !vehicle.has_engine[2]) return "";
   std::string yaml = "    engines:\n";
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
+    if (!vehicle.has_engine[i]) continue;
     const EngineParameters& engine = vehicle.engines[i];
     yaml += fmt::format(
         "      {}: {{position: {}, direction: {}, min_thrust: {}, max_thrust: {}, "
@@ -80,8 +83,7 @@ std::string engineText(const VehicleScenario& vehicle) {
 std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario,
                         bool has_engines) {
   std::string yaml = fmt::format("  {}:\n{}", yamlText(vehicle.name), massText(vehicle));
-  if (has_engines) yaml += engineText(vehicle);
-  if (has_engines) yaml += sensorsYaml(vehicle);
+  if (has_engines) yaml += engineText(vehicle) + actuatorsYaml(vehicle) + sensorsYaml(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
   yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";

@@ -53,7 +53,7 @@ Simulation::Simulation(Scenario scenario)
       bare_ground_(bareGroundOf(scenario_)) {
   const FloatingPointEnvironment environment;
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
-    engine_dynamics_.emplace_back(vehicle.engines, scenario_.step_ns);
+    engine_dynamics_.emplace_back(parametersOf(vehicle), scenario_.step_ns);
   }
   inputs_.resize(world_.scene().bodies().size());
   environment_.wind_W = scenario_.wind;
@@ -68,7 +68,9 @@ void Simulation::reset(std::int64_t seed) {
   const FloatingPointEnvironment environment;
   state_ = SimulationState();
   state_.seed = seed;
-  state_.engines.resize(vehicleCount());
+  for (const VehicleScenario& vehicle : scenario_.vehicles) {
+    state_.engines.push_back(initialActuators(vehicle));
+  }
   const auto start = [this](const VehicleScenario& body) {
     const Mobility& mobility = modelOf(state_.bodies.size()).mobility;
     state_.bodies.push_back(initialState(scenario_, body, mobility));
@@ -145,16 +147,18 @@ void Simulation::endWrenches() {
 void Simulation::push(const Command& command) {
   demand(command.tick >= state_.tick, "a command must not lie in the past");
   demand(command.vehicle < vehicleCount(), "a command must name a vehicle of the scenario");
-  demand(command.thrusts.allFinite(), "a thrust must be checked before it becomes a command");
+  demand(allFinite(command.thrusts), "a thrust must be checked before it becomes a command");
+  demand(command.engines >> state_.engines[command.vehicle].size() == 0,
+         "a command must be for actuators of the craft");
   state_.commands.push(command);
 }
 
 void Simulation::applyDueCommands() {
   while (const Command* command = state_.commands.takeDue(state_.tick)) {
     EngineStates& engines = state_.engines[command->vehicle];
-    for (int i = 0; i < kEngineCount; ++i) {
-      if ((command->engines & maskOf(static_cast<EngineId>(i))) == 0) continue;
-      EngineState& engine = engines[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < engines.size(); ++i) {
+      if ((command->engines & maskOf(i)) == 0) continue;
+      EngineState& engine = engines[i];
       engine.commanded = command->thrusts[i];
       engine.command_tick = state_.tick;
     }
@@ -176,7 +180,7 @@ void Simulation::prepareInputs() {
   std::size_t vehicle = 0;
   for (const EngineStates& engines : state_.engines) {
     StepInputs& inputs = inputs_[vehicle];
-    inputs.thrusts = engine_dynamics_[vehicle].course(engines, state_.tick);
+    engine_dynamics_[vehicle].course(engines, state_.tick, inputs.thrusts);
     inputs.is_loaded = false;
     const auto& forces = modelOf(vehicle).ground_forces;
     if (forces != nullptr && forces->cushion()) turnFans(*forces->cushion(), inputs.fan_speeds);
@@ -232,8 +236,8 @@ void Simulation::takeResult() {
   if (bodies_meet) state_.contacts.swap(result_.memory);
   auto inputs = inputs_.cbegin();
   for (EngineStates& engines : state_.engines) {
-    const Vector3& thrusts = (inputs++)->thrusts.end;
-    for (int i = 0; i < kEngineCount; ++i) engines[static_cast<std::size_t>(i)].thrust = thrusts[i];
+    const ActuatorArray<double>& thrusts = (inputs++)->thrusts.end;
+    for (std::size_t i = 0; i < engines.size(); ++i) engines[i].thrust = thrusts[i];
   }
 }
 

@@ -37,14 +37,21 @@ std::string bodyText(const BodyState& state) {
       state);
 }
 
-std::string vehicleText(const std::string& name, const BodyState& body,
-                        const EngineStates& engines) {
-  std::string yaml = fmt::format("  {}:\n    body: {}", yamlText(name), bodyText(body));
+std::string actuatorText(const EngineState& state) {
+  return fmt::format("{{commanded: {}, thrust: {}, command_tick: {}}}\n",
+                     yamlNumber(state.commanded), yamlNumber(state.thrust), state.command_tick);
+}
+
+std::string vehicleText(const VehicleScenario& vehicle, const BodyState& body,
+                        const EngineStates& states) {
+  std::string yaml = fmt::format("  {}:\n    body: {}", yamlText(vehicle.name), bodyText(body));
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    const EngineState& engine = engines[i];
-    yaml +=
-        fmt::format("    {}: {{commanded: {}, thrust: {}, command_tick: {}}}\n", kEngineNames[i],
-                    yamlNumber(engine.commanded), yamlNumber(engine.thrust), engine.command_tick);
+    yaml += fmt::format("    {}: {}", kEngineNames[i], actuatorText(states[i]));
+  }
+  if (!vehicle.actuators.empty()) yaml += "    actuators:\n";
+  for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
+    yaml += fmt::format("      {}: {}", yamlText(vehicle.actuators[i].name),
+                        actuatorText(states[kFirstActuator + i]));
   }
   return yaml;
 }
@@ -57,10 +64,22 @@ std::string wrenchText(const Scenario& scenario, const ExternalWrench& external)
                      external.end_tick);
 }
 
+/// The values for actuators besides the engines by name, if there are any.
 std::string commandText(const Scenario& scenario, const Command& command) {
-  return fmt::format("  - {{tick: {}, vehicle: {}, engines: {}, thrusts: {}}}\n", command.tick,
-                     yamlText(scenario.vehicles[command.vehicle].name),
-                     static_cast<int>(command.engines), yamlVector(command.thrusts));
+  const VehicleScenario& vehicle = scenario.vehicles[command.vehicle];
+  const Vector3 thrusts(command.thrusts[0], command.thrusts[1], command.thrusts[2]);
+  std::string yaml =
+      fmt::format("  - {{tick: {}, vehicle: {}, engines: {}, thrusts: {}", command.tick,
+                  yamlText(vehicle.name), command.engines & kAllEngines, yamlVector(thrusts));
+  std::string values;
+  for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
+    if ((command.engines & maskOf(kFirstActuator + i)) == 0) continue;
+    values +=
+        fmt::format("{}{}: {}", values.empty() ? "" : ", ", yamlText(vehicle.actuators[i].name),
+                    yamlNumber(command.thrusts[kFirstActuator + i]));
+  }
+  if (!values.empty()) yaml += fmt::format(", actuators: {{{}}}", values);
+  return yaml + "}\n";
 }
 
 /// A contact by the indices of its bodies and features: these are of the same scenario.
@@ -91,7 +110,7 @@ std::string toSnapshot(const Simulation& simulation) {
       kSnapshotFormat, kPhysicsVersion, state.tick, state.seed, simulation.hash());
   const std::size_t vehicle_count = scenario.vehicles.size();
   for (std::size_t i = 0; i < vehicle_count; ++i) {
-    yaml += vehicleText(scenario.vehicles[i].name, state.bodies[i], state.engines[i]);
+    yaml += vehicleText(scenario.vehicles[i], state.bodies[i], state.engines[i]);
   }
   if (!state.wrenches.empty()) yaml += "wrenches:\n";
   for (const ExternalWrench& external : state.wrenches) yaml += wrenchText(scenario, external);

@@ -101,6 +101,11 @@ BodyState parseBodyState(const ConfigReader& reader, const Scenario& scenario) {
              : parseBodyAs(reader, scenario.model, Matrix3(Matrix3::Identity()));
 }
 
+void requireCount(const ConfigReader& reader, const char* key, std::size_t count) {
+  if (reader.map(key).maps().size() == count) return;
+  reader.fail(key, "must hold those of the scenario and no other");
+}
+
 EngineState parseEngine(const ConfigReader& reader, const EngineParameters& engine, Tick now) {
   reader.allowOnly({"commanded", "thrust", "command_tick"});
   const EngineState state = {reader.number("commanded"), reader.number("thrust"),
@@ -114,11 +119,16 @@ EngineState parseEngine(const ConfigReader& reader, const EngineParameters& engi
 
 void parseVehicle(const ConfigReader& reader, const Scenario& scenario,
                   const VehicleScenario& vehicle, SimulationState& state) {
-  reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2]});
+  reader.allowOnly({"body", kEngineNames[0], kEngineNames[1], kEngineNames[2], "actuators"});
   state.bodies.push_back(parseBodyState(reader.map("body"), scenario));
   EngineStates engines;
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     engines[i] = parseEngine(reader.map(kEngineNames[i]), vehicle.engines[i], state.tick);
+  }
+  if (reader.has("actuators")) requireCount(reader, "actuators", vehicle.actuators.size());
+  for (const ActuatorScenario& actuator : vehicle.actuators) {
+    const ConfigReader entry = reader.map("actuators").map(actuator.name);
+    engines.push_back(parseEngine(entry, actuator.motion, state.tick));
   }
   state.engines.push_back(engines);
 }
@@ -131,9 +141,23 @@ std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenari
   return reader.choiceOr(0, "vehicle", names);
 }
 
+void parseCommandedActuators(const ConfigReader& reader, const VehicleScenario& vehicle,
+                             Command& command) {
+  command.thrusts.resize(kFirstActuator + vehicle.actuators.size());
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
+    const char* name = vehicle.actuators[i].name.c_str();
+    if (!reader.has(name)) continue;
+    ++found;
+    command.thrusts[kFirstActuator + i] = reader.number(name);
+    command.engines = static_cast<EngineMask>(command.engines | maskOf(kFirstActuator + i));
+  }
+  if (found == 0 || found != reader.size()) reader.fail("", "must name actuators of the craft");
+}
+
 /// @param earliest the tick of the command before it, or of the snapshot.
 Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick earliest) {
-  reader.allowOnly({"tick", "vehicle", "engines", "thrusts"});
+  reader.allowOnly({"tick", "vehicle", "engines", "thrusts", "actuators"});
   Command command;
   command.tick = wholeNumber(reader, "tick", 0, latestTick(scenario));
   if (command.tick < earliest) {
@@ -141,11 +165,15 @@ Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick 
   }
   command.vehicle = parseVehicleName(reader, scenario);
   const std::int64_t engines = reader.wholeNumberOr(0, "engines");
-  if (engines < 1 || engines > kAllEngines) {
+  const bool has_actuators = reader.has("actuators");
+  if (engines < (has_actuators ? 0 : 1) || engines > kAllEngines) {
     reader.fail("engines", "must be 1 to 7: the sum of rear 1, left 2, right 4");
   }
   command.engines = static_cast<EngineMask>(engines);
   command.thrusts = reader.vector("thrusts");
+  if (has_actuators) {
+    parseCommandedActuators(reader.map("actuators"), scenario.vehicles[command.vehicle], command);
+  }
   return command;
 }
 
@@ -247,11 +275,6 @@ std::vector<ContactMemory> parseContacts(const ConfigReader& reader, const World
     contacts.push_back(contact);
   }
   return contacts;
-}
-
-void requireCount(const ConfigReader& reader, const std::string& key, std::size_t count) {
-  if (reader.map(key).maps().size() == count) return;
-  reader.fail(key, "must hold those of the scenario and no other");
 }
 
 SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,

@@ -8,6 +8,7 @@
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
+#include "hovercraft_sim/sim/actuator_forces.h"
 #include "hovercraft_sim/sim/cushion_builder.h"
 
 namespace hovercraft {
@@ -117,6 +118,24 @@ ConvexPolyhedron hullOf(const VehicleScenario& vehicle) {
   return convexHull(points, vehicle.name + ": hull");
 }
 
+ActuatorArray<EngineParameters> parametersOf(const VehicleScenario& vehicle) {
+  ActuatorArray<EngineParameters> parameters(vehicle.engines);
+  for (const ActuatorScenario& actuator : vehicle.actuators) parameters.push_back(actuator.motion);
+  return parameters;
+}
+
+std::string actuatorName(const VehicleScenario& vehicle, std::size_t id) {
+  return id < kFirstActuator ? kEngineNames[id] : vehicle.actuators[id - kFirstActuator].name;
+}
+
+EngineStates initialActuators(const VehicleScenario& vehicle) {
+  EngineStates states;
+  for (const ActuatorScenario& actuator : vehicle.actuators) {
+    states.push_back({actuator.initial, actuator.initial, EngineState::kNever});
+  }
+  return states;
+}
+
 HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle) {
   const FloatingPointEnvironment environment;
   const MassProperties& body = vehicle.mass_properties;
@@ -124,7 +143,7 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
                                 ? Mobility::planar(body.mass, body.I_BBo_B)
                                 : Mobility::spatial(body.mass, body.I_BBo_B);
   return {mobility, EngineGeometry(vehicle.engines, body.p_HB), vehicle.drag,
-          body.mass * scenario.gravity, groundForcesOf(scenario, vehicle)};
+          body.mass * scenario.gravity, groundForcesOf(scenario, vehicle), forcesOf(vehicle)};
 }
 
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,

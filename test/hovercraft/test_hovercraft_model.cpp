@@ -67,7 +67,7 @@ TEST(HovercraftModel, VelocitiesAreThoseOfTheMomenta) {
   const HovercraftModel model = craft(generalMobility());
   const Vector3 v_WB(1.0, -2.0, 3.0);
   const Vector3 w_WB(0.5, 0.7, -1.1);
-  const auto rate = model.derivative(moving(model, v_WB, w_WB), Vector3::Zero(), kStillAir);
+  const auto rate = model.derivative(moving(model, v_WB, w_WB), {0.0, 0.0, 0.0}, kStillAir);
   EXPECT_LT(norm(rate.v_WB - v_WB), 10.0 * kRounding);
   const Quaternion expected = quaternionRateWorld(w_WB, someAttitude());
   EXPECT_LT(norm(rate.orientation_rate + (-1.0) * expected), 10.0 * kRounding);
@@ -83,7 +83,7 @@ TEST(HovercraftModel, DragActsAlongBodyAxes) {
   model.drag.angular_linear = {0.0, 0.0, 0.2};
   const Vector3 v_WB(1.0, -2.0, 0.5);
   const Vector3 w_WB(0.5, 0.7, -1.1);
-  const auto rate = model.derivative(moving(model, v_WB, w_WB), Vector3::Zero(), kStillAir);
+  const auto rate = model.derivative(moving(model, v_WB, w_WB), {0.0, 0.0, 0.0}, kStillAir);
   const Vector3 y_W = rotate(someAttitude(), Vector3::UnitY());
   const Vector3 z_W = rotate(someAttitude(), Vector3::UnitZ());
   EXPECT_LT(norm(rate.force_W - (-3.0 * dot(v_WB, y_W)) * y_W), 20.0 * kRounding);

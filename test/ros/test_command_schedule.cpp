@@ -69,8 +69,8 @@ TEST(CommandSchedule, GivesCommandsAtTheirTicksInTheOrderInWhichTheyCame) {
   EXPECT_EQ(first->engines, 3);
   EXPECT_EQ(first->thrusts, hovercraft::Vector3(2.0, 0.5, 0.0));
   EXPECT_FALSE(schedule.takeDue(119));
-  EXPECT_EQ(schedule.takeDue(120)->thrusts.x(), 1.0);
-  EXPECT_EQ(schedule.takeDue(120)->thrusts.x(), 3.0);
+  EXPECT_EQ(schedule.takeDue(120)->thrusts[0], 1.0);
+  EXPECT_EQ(schedule.takeDue(120)->thrusts[0], 3.0);
   EXPECT_FALSE(schedule.takeDue(1000));
   EXPECT_FALSE(schedule.next());
 }
@@ -103,7 +103,12 @@ TEST(CommandSchedule, RefusesWhatCannotActAndNamesTheCommand) {
   EXPECT_EQ(refusalOf([](AppliedCommand& command) { command.engines = 8; }),
             "commands[0]: engines = 8: must be 1 to 7");
   EXPECT_EQ(refusalOf([](AppliedCommand& command) { command.ids = {3}; }),
-            "commands[0]: ids, values: must be empty: the craft has no actuators but its engines");
+            "commands[0]: ids and values: must be as many");
+  EXPECT_EQ(refusalOf([](AppliedCommand& command) {
+              command.ids = {3};
+              command.values = {1.0};
+            }),
+            "commands[0]: ids[0] = 3: must be an actuator of the craft, ascending");
   EXPECT_EQ(refusalOf([](AppliedCommand& command) { command.left = kNan; }),
             "commands[0]: a thrust must be finite");
 }

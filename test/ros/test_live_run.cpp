@@ -137,11 +137,11 @@ TEST(LiveRun, ARenewedStampIsOneStepLater) {
 TEST(LiveRun, ASnapshotWithCommandsOfLaterTicksIsRefused) {
   const Scenario scenario = parsed(validScenario());
   hovercraft::Simulation saved(scenario);
-  saved.push({0, 0, hovercraft::kAllEngines, Vector3::Zero()});
+  saved.push({0, 0, hovercraft::kAllEngines, {}});
   LiveRun run(scenario, kEpoch);
   run.apply(loadEvent(hovercraft::toSnapshot(saved)));
   EXPECT_TRUE(run.simulation().hasWaitingCommands());
-  saved.push({3, 0, hovercraft::kAllEngines, Vector3::Zero()});
+  saved.push({3, 0, hovercraft::kAllEngines, {}});
   EXPECT_EQ(refusal([&] { run.apply(loadEvent(hovercraft::toSnapshot(saved))); }),
             "snapshot: commands: tick = 3: must be that of the snapshot, 0");
 }

@@ -156,7 +156,7 @@ TEST_F(RecordedInput, ACommandIsCheckedByTopicTimeAndRule) {
          command.ids = {3};
          command.values = {0.5};
        },
-       "ids: must be empty: the craft has no actuators but its engines"},
+       "ids: must be below 3: the craft has 0 actuators besides its engines"},
   };
   for (const auto& [change, rule] : cases) {
     damage<AppliedCommand>("/craft/commands", change);

@@ -26,12 +26,12 @@ Command of(std::size_t vehicle, EngineMask engines, double thrust) {
 /// The thrusts of the commands that wait.
 std::vector<double> waitingIn(const CommandLog& log) {
   std::vector<double> thrusts;
-  for (const Command& command : log.waiting()) thrusts.push_back(command.thrusts.x());
+  for (const Command& command : log.waiting()) thrusts.push_back(command.thrusts[0]);
   return thrusts;
 }
 
 double thrustOf(const Command* command) {
-  return command == nullptr ? -1.0 : command->thrusts.x();
+  return command == nullptr ? -1.0 : command->thrusts[0];
 }
 
 TEST(EngineMask, HasOneBitForEachEngine) {

@@ -71,7 +71,7 @@ TEST(Simulation, CommandsTakeEffectAtTheirTick) {
   Simulation simulation(scenario);
   std::vector<Tick> applied;
   simulation.on_applied = [&](const Command& command) {
-    EXPECT_EQ(command.thrusts.x(), 4.5);
+    EXPECT_EQ(command.thrusts[0], 4.5);
     applied.push_back(simulation.tick());
   };
   simulation.push({3, 0, kAllEngines, {4.5, 0.0, 0.0}});

@@ -25,11 +25,10 @@ inline void PrintTo(const BrokenRule& rule, std::ostream* stream) {  // NOLINT: 
 inline const std::vector<BrokenRule> kBrokenKeys = {
     {"UnknownKey", "seed: 7", "sede: 7",
      "sede = 7: unknown key; known here: physics_version, step_size, integrator, orientation, "
-     "model, "
-     "gravity, wind, seed, vehicles, world"},
+     "model, gravity, wind, seed, vehicles, world, ground"},
     {"UnknownVehicleKey", "    mass: 5.5", "    weight: 5.5",
      "vehicles.alpha.weight = 5.5: unknown key; known here: mass, inertia, center_of_mass, parts, "
-     "engines, drag, hull, material, visual, initial, sensors, tf"},
+     "engines, actuators, drag, hull, material, visual, initial, cushion, sensors, tf"},
     {"UnknownEngine", "      left: {", "      port: {",
      "vehicles.alpha.engines.port = {position: [0.2, 0.15, 0.05], direction: [0, -1, 0], "
      "min_thrust: 0, max_thrust: ...: unknown key; known here: rear, left, right"},
@@ -47,10 +46,6 @@ inline const std::vector<BrokenRule> kBrokenKeys = {
     {"MissingStepSize", "step_size: 0.002\n", "", "step_size: the key is missing"},
     {"MissingMass", "    mass: 5.5\n", "", "vehicles.alpha.mass: the key is missing"},
     {"MissingMoment", "izz: 0.25, ", "", "vehicles.alpha.inertia.izz: the key is missing"},
-    {"MissingEngine",
-     "      left: {position: [0.2, 0.15, 0.05], direction: [0, -1, 0], min_thrust: 0, max_thrust: "
-     "1.5}\n",
-     "", "vehicles.alpha.engines.left: the key is missing"},
     {"MissingLimit", ", max_thrust: 1.5}", "}",
      "vehicles.alpha.engines.left.max_thrust: the key is missing"},
     {"MissingDirection", "direction: [0, -1, 0], ", "",

@@ -7,22 +7,25 @@
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/body/steppers.h"
+#include "hovercraft_sim/hovercraft/actuator_array.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/math/vector.h"
 
 namespace hovercraft {
 
-/// The three engines (figure 7 of the source: c, l, p), in the order of every array of three.
-enum class EngineId : int { kRear = 0, kLeft = 1, kRight = 2 };
+/// The three engines (figure 7 of the source: c, l, p), the first of the actuators.
+using EngineId = ActuatorId;
 constexpr int kEngineCount = 3;
+static_assert(kEngineCount == kFirstActuator, "the other actuators follow the engines");
 constexpr std::array<const char*, kEngineCount> kEngineNames = {"rear", "left", "right"};
 
 /// Simulated seconds after which an engine without a new command stops, where the scenario does not
 /// say.
 constexpr double kDefaultCommandTimeout = 0.5;
 
-/// One engine as the scenario describes it.
+/// How an engine, or another actuator, follows its commands, as the scenario describes it. What
+/// lags is a thrust in N, or with another actuator its level (actuators.h).
 struct EngineParameters {
   Vector3 p_HE = Vector3::Zero();        // position in the hull frame (base_link), m
   Vector3 direction = Vector3::UnitX();  // unit vector of positive thrust, in B
@@ -32,47 +35,51 @@ struct EngineParameters {
   std::int64_t timeout_ns = 0;           // ns since the last command; 0 = never
 };
 
-/// What an engine remembers from one tick to the next.
+/// What an actuator remembers from one tick to the next.
 struct EngineState {
   static constexpr Tick kNever = -1;
 
-  double commanded = 0.0;      // N, as received
-  double thrust = 0.0;         // N, along the engine's direction, after limits and lag
+  double commanded = 0.0;  // N, or its level, as received
+  double thrust = 0.0;     // N, along the engine's direction, or its level; after limits and lag
   Tick command_tick = kNever;  // at which the last command took effect
 };
-using EngineStates = std::array<EngineState, kEngineCount>;
+using EngineStates = ActuatorArray<EngineState>;
 
-/// The thrusts (rear, left, right; N) over one step: at its stages, and in between.
+/// Thrusts, N, and levels of all actuators over one step: at its stages, and in between.
 struct ThrustCourse {
-  Vector3 start;
-  Vector3 middle;
-  Vector3 end;
+  ActuatorArray<double> start;
+  ActuatorArray<double> middle;
+  ActuatorArray<double> end;
 
   /// At a share x of the step, 0 to 1: the parabola through its start, middle and end, which is
   /// exact there and off by the cube of the step over the lag in between.
-  Vector3 at(double x) const {
+  ActuatorArray<double> at(double x) const {
     const double at_start = (1.0 - x) * (1.0 - 2.0 * x);
     const double at_middle = 4.0 * x * (1.0 - x);
     const double at_end = x * (2.0 * x - 1.0);
-    return (at_start * start + at_middle * middle) + at_end * end;
+    ActuatorArray<double> values = start;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = (at_start * start[i] + at_middle * middle[i]) + at_end * end[i];
+    }
+    return values;
   }
   /// Over the piece from `from` to `to` of a step of h, all in s.
   ThrustCourse piece(double from, double to, double h) const {
     return {at(from / h), at(0.5 * (from + to) / h), at(to / h)};
   }
 
-  const Vector3& at(Stage stage) const {
+  const ActuatorArray<double>& at(Stage stage) const {
     if (stage == Stage::kStart) return start;
     return stage == Stage::kMiddle ? middle : end;
   }
 };
 
-/// Limits, lag and time-out of the three engines of one craft at a fixed step size.
+/// Limits, lag and time-out of the engines and the other actuators of one craft at a fixed step
+/// size.
 class HOVERCRAFT_PUBLIC EngineDynamics {
  public:
   /// @param step_ns length of a step, ns, > 0.
-  EngineDynamics(const std::array<EngineParameters, kEngineCount>& parameters,
-                 std::int64_t step_ns);
+  EngineDynamics(const ActuatorArray<EngineParameters>& parameters, std::int64_t step_ns);
 
   /// Simulated time from the tick at which the last command took effect to `tick`, ns; -1 if there
   /// was none.
@@ -82,8 +89,7 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
 
   /// The last command is as old as the time-out or older.
   bool isTimedOut(int engine, const EngineState& state, Tick tick) const {
-    return state.command_tick != EngineState::kNever &&
-           tick - state.command_tick >= rules_[static_cast<std::size_t>(engine)].timeout_ticks;
+    return isTimedOut(rules_[static_cast<std::size_t>(engine)], state, tick);
   }
 
   /// The last command lies beyond the engine's limits.
@@ -94,15 +100,15 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
 
   /// The thrust that the engine strives for in the step that begins at `tick`, N.
   double demandedThrust(int engine, const EngineState& state, Tick tick) const {
-    if (isTimedOut(engine, state, tick)) return 0.0;
-    const Rule& limits = rules_[static_cast<std::size_t>(engine)];
-    return std::clamp(state.commanded, limits.min_thrust, limits.max_thrust);
+    return demandOf(rules_[static_cast<std::size_t>(engine)], state, tick);
   }
 
   /// Thrusts in the step that begins at `tick`. Without lag the thrust is the demand from the start
   /// of the step on; with lag it is the exact solution of T' = (demand - T)/time_constant at each
   /// stage.
   ThrustCourse course(const EngineStates& states, Tick tick) const;
+  /// The same, written into what the last step left there.
+  void course(const EngineStates& states, Tick tick, ThrustCourse& course) const;
 
  private:
   /// What a step needs of an engine.
@@ -115,8 +121,17 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     bool lags = false;
   };
 
+  static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
+    return state.command_tick != EngineState::kNever &&
+           tick - state.command_tick >= rule.timeout_ticks;
+  }
+  static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
+    if (isTimedOut(rule, state, tick)) return 0.0;
+    return std::clamp(state.commanded, rule.min_thrust, rule.max_thrust);
+  }
+
   std::int64_t step_ns_;
-  std::array<Rule, kEngineCount> rules_;
+  ActuatorArray<Rule> rules_;
 };
 
 /// From three thrusts to the wrench about the centre of mass: (33) to (37) as two 3×3 matrices.

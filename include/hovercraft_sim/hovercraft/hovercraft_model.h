@@ -1,17 +1,20 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/hovercraft/drag.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/environment.h"
+#include "hovercraft_sim/hovercraft/forces.h"
 #include "hovercraft_sim/hovercraft/ground_forces.h"
 
 namespace hovercraft {
 
-/// What acts on one craft: engines (33) to (37), drag, gravity; and how the body answers (24).
+/// What acts on one craft: engines (33) to (37), drag, other forces, gravity; and how the body
+/// answers (24).
 /// Frames: W world, B body (centre of mass, axes of base_link). Constant during a run.
 struct HovercraftModel {
   Mobility mobility;
@@ -19,6 +22,7 @@ struct HovercraftModel {
   Drag drag;
   Vector3 weight_W = Vector3::Zero();                           // m g, N
   std::shared_ptr<const GroundForces> ground_forces = nullptr;  // none: nothing of it is asked
+  std::vector<Force> forces = {};  // of the other actuators, in a fixed order
 
   /// How a body moves, in B.
   template <class Orientation>
@@ -31,18 +35,24 @@ struct HovercraftModel {
             transposeTimes(R_WB, v_WB - environment.wind_W)};
   }
 
-  /// dY/dt with the engines at `thrusts` (rear, left, right; N) and the fans of the cushion at
+  /// dY/dt with the actuators at `thrusts` and the fans of the cushion at
   /// `fan_speeds` (of a craft with ground forces), in the air of `environment`. The
   /// wrench is built in B and rotated into W, its moment as its force (errata 18).
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
-                                          const Vector3& thrusts, const Environment& environment,
+                                          const ActuatorArray<double>& thrusts,
+                                          const Environment& environment,
                                           const FanSpeeds* fan_speeds = nullptr) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
     const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
     const Vector3 u_B = transposeTimes(R_WB, v_WB - environment.wind_W);
-    Wrench wrench_B = engines.wrenchInBody(thrusts) + drag.wrenchInBody(u_B, w_WB_B);
+    Wrench wrench_B =
+        engines.wrenchInBody({thrusts[0], thrusts[1], thrusts[2]}) + drag.wrenchInBody(u_B, w_WB_B);
+    // Out of the way of a craft without any, which keeps its numbers in registers.
+    if (__builtin_expect(static_cast<long>(!forces.empty()), 0L) != 0L) {
+      wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
+    }
     if (ground_forces != nullptr) {
       const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
       wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment, *fan_speeds);

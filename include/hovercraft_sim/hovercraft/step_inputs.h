@@ -19,7 +19,7 @@ struct ExternalLoad {
 /// All that determines the motion of one body in a step besides its state and contact: the same for
 /// a craft and for a loose body, whose engines have no thrust.
 struct StepInputs {
-  ThrustCourse thrusts{Vector3::Zero(), Vector3::Zero(), Vector3::Zero()};  // of the whole step
+  ThrustCourse thrusts;  // of the whole step
   ExternalLoad load;
   bool is_loaded = false;  // else `load` counts for nothing
   Environment environment;

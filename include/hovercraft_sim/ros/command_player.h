@@ -66,8 +66,10 @@ class HOVERCRAFT_PUBLIC CommandPlayer {
   hovercraft::Tick settle_ticks_;
   hovercraft::Tick repeat_ticks_;
   std::uint32_t wanted_subscribers_;
-  std::vector<ros::Publisher> publishers_;  // by vehicle
-  std::vector<hovercraft::Vector3> thrusts_;
+  std::vector<ros::Publisher> publishers_;           // by vehicle
+  std::vector<ros::Publisher> actuator_publishers_;  // of craft that have such
+  std::vector<hovercraft::VehicleScenario> craft_;
+  std::vector<hovercraft::Command> held_;  // of each craft
   std::vector<bool> commanded_;
   ros::Subscriber state_subscriber_;
   PlayedTime time_;

@@ -8,6 +8,7 @@
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Vector3.h>
+#include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/AppliedCommand.h>
 #include <hovercraft_sim/Engine.h>
 #include <hovercraft_sim/ThrustCommand.h>
@@ -50,6 +51,14 @@ HOVERCRAFT_PUBLIC hovercraft::Quaternion turnFromX(const hovercraft::Vector3& di
 HOVERCRAFT_PUBLIC hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report);
 HOVERCRAFT_PUBLIC hovercraft_sim::AppliedCommand toMessage(const hovercraft::Command& command);
 
+/// Its thrusts of all three engines, whichever it is for.
+HOVERCRAFT_PUBLIC hovercraft_sim::ThrustCommand toThrustCommand(const hovercraft::Command& command,
+                                                                const ros::Time& stamp);
+/// Its values for actuators besides the engines.
+HOVERCRAFT_PUBLIC hovercraft_sim::ActuatorCommand toActuatorCommand(
+    const hovercraft::Command& command, const hovercraft::VehicleScenario& craft,
+    const ros::Time& stamp);
+
 /// The command that a message asks for at `tick`; nothing if a thrust is not finite.
 HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
     const hovercraft_sim::ThrustCommand& message, std::size_t vehicle, hovercraft::Tick tick);
@@ -57,6 +66,14 @@ HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(double thrust,
                                                                hovercraft::EngineId engine,
                                                                std::size_t vehicle,
                                                                hovercraft::Tick tick);
+/// For the actuator of that id, by the command of its kind.
+HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(double value, std::size_t id,
+                                                               std::size_t vehicle,
+                                                               hovercraft::Tick tick);
+/// Nothing too if a name is unknown or stands twice, or there are not as many values as names.
+HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
+    const hovercraft_sim::ActuatorCommand& message, const hovercraft::VehicleScenario& craft,
+    std::size_t vehicle, hovercraft::Tick tick);
 /// The command that was recorded, to be applied at its own tick.
 HOVERCRAFT_PUBLIC hovercraft::Command toCommand(const hovercraft_sim::AppliedCommand& message,
                                                 std::size_t vehicle);

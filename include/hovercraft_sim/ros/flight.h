@@ -56,7 +56,7 @@ class HOVERCRAFT_PUBLIC Flight {
   struct Played {
     std::unique_ptr<hovercraft::CommandSource> source;
     std::optional<hovercraft::Command> next;
-    std::vector<hovercraft::Vector3> thrusts;  // by vehicle, N
+    std::vector<hovercraft::Command> held;  // by vehicle
   };
 
   hovercraft::Scenario receiveScenario() const;
@@ -76,7 +76,8 @@ class HOVERCRAFT_PUBLIC Flight {
   ros::NodeHandle handle_;
   hovercraft::Scenario scenario_;
   std::optional<std::uint32_t> episode_;
-  std::vector<ros::Publisher> publishers_;  // by vehicle
+  std::vector<ros::Publisher> publishers_;           // by vehicle
+  std::vector<ros::Publisher> actuator_publishers_;  // of craft that have such
   std::vector<ros::Subscriber> subscribers_;
   std::optional<Played> played_;
   std::vector<hovercraft::Trajectory> trajectories_;

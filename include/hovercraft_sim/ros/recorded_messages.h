@@ -8,15 +8,18 @@
 #include <rosbag/message_instance.h>
 
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros {
 
 /// Messages of a recording, checked as they are read: a bag is input of a user, whatever wrote it.
 /// Each throws std::invalid_argument that names file, topic, time and rule.
 
-/// Its tick fits hovercraft::Tick, it is for engines that there are, its thrusts are finite.
+/// Its tick fits hovercraft::Tick, it is for engines and actuators that the craft has, its thrusts
+/// and values are finite.
 HOVERCRAFT_PUBLIC boost::shared_ptr<const hovercraft_sim::AppliedCommand> readAppliedCommand(
-    const std::string& path, const rosbag::MessageInstance& instance);
+    const std::string& path, const rosbag::MessageInstance& instance,
+    const hovercraft::VehicleScenario& craft);
 
 /// Its ticks fit hovercraft::Tick, its kind is known, and what that kind uses is finite, its
 /// quaternion of length 1. Whether vehicle and snapshot fit the scenario is seen by applyEvent().

@@ -69,9 +69,11 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
       ros::NodeHandle& handle, const char* topic,
       const Message& (VehicleMessages::*message)() const, bool latched);
   void subscribe(ros::NodeHandle& handle);
+  void subscribeActuators(ros::NodeHandle& handle);
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
+  /// @param rule that a message without a command breaks.
   void take(const std::optional<hovercraft::Command>& command, const std::string& topic,
-            const std::optional<ros::Time>& stamp);
+            const std::optional<ros::Time>& stamp, const char* rule = "a thrust must be finite");
 
   const LiveRun& run_;
   std::size_t vehicle_;
@@ -85,6 +87,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   NewcomerPublisher<geometry_msgs::TwistStamped> twist_;
   NewcomerPublisher<nav_msgs::Odometry> odom_;
   NewcomerPublisher<hovercraft_sim::EngineStatus> engines_;
+  NewcomerPublisher<hovercraft_sim::ActuatorStatusArray> actuators_;
   NewcomerPublisher<hovercraft_sim::State> state_;
   NewcomerPublisher<hovercraft_sim::Cushion> cushion_;  // of a craft that has one
   ros::Publisher commands_;

@@ -7,6 +7,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistStamped.h>
+#include <hovercraft_sim/ActuatorStatusArray.h>
 #include <hovercraft_sim/AppliedCommand.h>
 #include <hovercraft_sim/Cushion.h>
 #include <hovercraft_sim/EngineStatus.h>
@@ -27,6 +28,8 @@ constexpr const char* kTwistTopic = "twist";
 constexpr const char* kOdomTopic = "odom";
 constexpr const char* kEnginesTopic = "engines";
 constexpr const char* kCushionTopic = "cushion";
+constexpr const char* kActuatorsTopic = "actuators";
+constexpr const char* kActuatorCommandTopic = "actuator_command";
 constexpr const char* kStateTopic = "state";
 constexpr const char* kCommandsTopic = "commands";
 
@@ -68,6 +71,9 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   const nav_msgs::Odometry& odom() const { return odom_; }
   const geometry_msgs::TransformStamped& transform() const { return transform_; }
   const hovercraft_sim::EngineStatus& engines() const { return engines_; }
+  /// Empty if the craft has no actuators besides its engines.
+  const hovercraft_sim::ActuatorStatusArray& actuators() const { return actuators_; }
+  bool hasActuators() const { return !actuators_.actuators.empty(); }
   const hovercraft_sim::State& state() const { return state_; }
   bool hasCushion() const { return description_.cushion.has_value(); }
   /// Of a craft that has one.
@@ -76,6 +82,7 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
  private:
   void enter(std::uint32_t episode);
   void fillCushion(const hovercraft::Simulation& simulation);
+  void fillActuators(const hovercraft::Simulation& simulation);
 
   hovercraft::VehicleScenario description_;
   std::size_t vehicle_;
@@ -87,6 +94,7 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   nav_msgs::Odometry odom_;
   geometry_msgs::TransformStamped transform_;
   hovercraft_sim::EngineStatus engines_;
+  hovercraft_sim::ActuatorStatusArray actuators_;
   hovercraft_sim::State state_;
   hovercraft_sim::Cushion cushion_;
   hovercraft::CushionReport cushion_report_;

@@ -11,21 +11,30 @@
 
 namespace hovercraft {
 
-/// The engines that a command is for: bit i stands for engine i (rear 1, left 2, right 4).
-using EngineMask = std::uint8_t;
+/// The actuators that a command is for: bit i stands for that of id i (rear 1, left 2, right 4,
+/// then the others).
+using EngineMask = std::uint16_t;
 constexpr EngineMask kAllEngines = 7;
-constexpr EngineMask maskOf(EngineId engine) {
-  return static_cast<EngineMask>(1U << static_cast<unsigned>(engine));
+static_assert(kMaxActuators <= 16, "a mask has a bit for each actuator");
+constexpr EngineMask maskOf(ActuatorId actuator) {
+  return static_cast<EngineMask>(1U << static_cast<unsigned>(actuator));
+}
+constexpr EngineMask maskOf(std::size_t id) {
+  return static_cast<EngineMask>(1U << id);
 }
 
-/// Thrusts demanded of one craft from a tick on, until the next command or the time-out.
+/// What is demanded of one craft from a tick on, until the next command or the time-out.
 struct Command {
   Tick tick = 0;            // the first step that it acts in begins here
   std::size_t vehicle = 0;  // index into Scenario::vehicles
   EngineMask engines = kAllEngines;
-  Vector3 thrusts =
-      Vector3::Zero();  // rear, left, right, N, finite; counted only where the mask has the engine
+  /// By id: rear, left, right in N, then the others; finite; counted only where the mask has it.
+  ActuatorArray<double> thrusts;
 };
+
+/// Makes `held` what holds when `command` comes after it: its values for what the command is for.
+/// The tick and the craft of `held` stay.
+HOVERCRAFT_PUBLIC void hold(const Command& command, Command& held);
 
 /// Commands that wait for their tick, in the order of ticks; of one tick, in the order in which
 /// they came. One that a later command of its tick replaces for all its engines has no effect on

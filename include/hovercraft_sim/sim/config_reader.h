@@ -41,6 +41,8 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   void allowOnly(const std::vector<std::string>& keys) const;
 
   bool has(const char* key) const;
+  /// How many keys there are.
+  std::size_t size() const;
   /// Whether there is a map behind `key`.
   bool isMap(const char* key) const;
   /// The map behind `key`.

@@ -22,6 +22,7 @@ class HOVERCRAFT_PUBLIC CsvReader {
   /// Throws unless the header is one of these, each a list as `time,rear,left,right`.
   void requireHeader(const std::vector<std::string>& headers) const;
   bool hasColumn(const std::string& name) const;
+  const std::vector<std::string>& header() const { return header_; }
 
   /// Moves to the next row; false at the end of the file.
   bool next();

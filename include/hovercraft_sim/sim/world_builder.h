@@ -19,6 +19,15 @@ HOVERCRAFT_PUBLIC std::vector<Vector3> partPoints(const std::vector<PartScenario
 /// The body by which a craft meets others, in B. @throws std::invalid_argument if it is flat.
 HOVERCRAFT_PUBLIC ConvexPolyhedron hullOf(const VehicleScenario& vehicle);
 
+/// Limits, lags and time-outs of a craft's engines and its other actuators, by id.
+HOVERCRAFT_PUBLIC ActuatorArray<EngineParameters> parametersOf(const VehicleScenario& vehicle);
+
+/// Its engine "rear", or the actuator by its own name.
+HOVERCRAFT_PUBLIC std::string actuatorName(const VehicleScenario& vehicle, std::size_t id);
+
+/// What they are before the first command.
+HOVERCRAFT_PUBLIC EngineStates initialActuators(const VehicleScenario& vehicle);
+
 /// What acts on a craft or a loose body.
 HOVERCRAFT_PUBLIC HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle);
 
