@@ -8,15 +8,18 @@
 
 #include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/sim/velocity_parameters.h"
+#include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft_ros {
 
 VelocityNodeConfig parseVelocityNodeConfig(const hovercraft::ConfigNode& parameters,
                                            const std::string& node_name) {
   const hovercraft::ConfigReader reader(parameters, node_name);
-  reader.allowOnly({"mass", "yaw_inertia", "center_x", "center_y", "linear_drag", "quadratic_drag",
-                    "actuators", "response_time", "proportional", "integral", "timeout"});
-  const hovercraft::VelocityParameters read = hovercraft::parseVelocityParameters(reader);
+  reader.allowOnly({"parameters", "timeout"});
+  const std::string source = node_name + "/parameters";
+  const hovercraft::ConfigReader craft(hovercraft::treeOf(reader.text("parameters"), source),
+                                       source);
+  const hovercraft::VelocityParameters read = hovercraft::parseVelocityParameters(craft);
   VelocityNodeConfig config;
   config.plant = read.plant;
   config.gains = read.gains;

@@ -22,8 +22,8 @@ struct VelocityNodeConfig {
   double timeout = 0.5;  // s of the odometry's time since the last cmd_vel; then thrusts are 0
 };
 
-/// @param parameters the node's private namespace: those of a file of velocity_gains, and
-/// `timeout`. @param node_name begins every error.
+/// @param parameters the node's private namespace: `parameters`, the text of a file of
+/// velocity_gains, and `timeout`. @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
 HOVERCRAFT_PUBLIC VelocityNodeConfig
 parseVelocityNodeConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name);
