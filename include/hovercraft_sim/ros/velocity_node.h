@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <geometry_msgs/Twist.h>
+#include <hovercraft_sim/ThrustCommand.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -49,6 +50,7 @@ class HOVERCRAFT_PUBLIC VelocityNode {
   std::optional<ros::Time> last_;       // stamp of the last odometry
   std::optional<ros::Time> commanded_;  // stamp of the odometry after which the last command came
   bool has_new_command_ = false;
+  hovercraft_sim::ThrustCommand answer_;  // the last one
   WarningLimiter warnings_;
   ros::Publisher thrust_;
   ros::Subscriber commands_;
