@@ -14,12 +14,11 @@ constexpr FigureColor kText = {40, 48, 56};
 constexpr double kLabelSize = 11.0;
 constexpr double kTitleSize = 12.0;
 
+/// What differs by rounding only is one value: no two labels would differ.
 FigureRange withExtent(FigureRange range) {
-  const double extent = range.most - range.least;
-  const double least =
-      std::max(1e-12, 1e-9 * std::max(std::abs(range.least), std::abs(range.most)));
-  if (extent > least) return range;
-  const double room = std::max(0.5 * std::abs(range.least), 0.5);
+  const double size = std::max(std::abs(range.least), std::abs(range.most));
+  if (range.most - range.least > std::max(1e-12, 1e-6 * size)) return range;
+  const double room = size > 1e-12 ? 0.5 * size : 0.5;
   return {range.least - room, range.most + room};
 }
 

@@ -26,6 +26,15 @@ RunData readRun(const std::string& path, bool shows_progress, std::ostream& term
   return runDataOf(readTopics(path, shows_progress ? ReadingProgress(progress) : nullptr));
 }
 
+/// A text of a bag, for a terminal: without what would move its cursor.
+std::string plain(std::string text) {
+  for (char& character : text) {
+    const auto code = static_cast<unsigned char>(character);
+    if (code < 0x20 || code == 0x7f) character = '?';
+  }
+  return text;
+}
+
 void writeFile(const std::string& path, const std::string& content) {
   hovercraft::OutputFile file(path);
   file.write(content.data(), content.size());
@@ -68,7 +77,8 @@ std::string makeReport(const ReportRequest& request, std::ostream& terminal) {
   std::vector<RunData> runs;
   for (const std::string& path : inputs) {
     runs.push_back(readRun(path, request.shows_progress, terminal));
-    for (const std::string& note : runs.back().notes) terminal << path << ": " << note << '\n';
+    for (const std::string& note : runs.back().notes)
+      terminal << path << ": " << plain(note) << '\n';
   }
   const auto comparisons =
       runs.size() > 1 ? compareRuns(runs[0], runs[1]) : std::vector<BodyComparison>();
@@ -82,10 +92,10 @@ std::string makeReport(const ReportRequest& request, std::ostream& terminal) {
   for (const RunData& run : runs) {
     if (runs.size() > 1) summary += run.source + '\n';
     for (const RunFact& fact : run.facts) {
-      summary += fmt::format("{:<28}  {}\n", fact.label, fact.value);
+      summary += fmt::format("{:<34}  {}\n", plain(fact.label), plain(fact.value));
     }
   }
-  return summary + fmt::format("{:<28}  {} ({:.1f} MB, needs no network)", "page", request.output,
+  return summary + fmt::format("{:<34}  {} ({:.1f} MB, needs no network)", "page", request.output,
                                1e-6 * static_cast<double>(page.size()));
 }
 

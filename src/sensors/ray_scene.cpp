@@ -13,9 +13,9 @@ constexpr double kGrazing = 1e-12;
 
 /// The beam along (c, s) against half spaces of S, from the origin of S.
 double hit(const std::vector<HalfSpace>& faces, std::size_t count, double c, double s) {
-  constexpr double kMiss = std::numeric_limits<double>::infinity();
+  constexpr double kNoHit = std::numeric_limits<double>::infinity();
   double enters = 0.0;
-  double leaves = kMiss;
+  double leaves = kNoHit;
   for (std::size_t i = 0; i < count; ++i) {
     const double speed = faces[i].normal.x() * c + faces[i].normal.y() * s;
     const double room = faces[i].offset;
@@ -24,10 +24,10 @@ double hit(const std::vector<HalfSpace>& faces, std::size_t count, double c, dou
     } else if (speed > 0.0) {
       leaves = std::min(leaves, room / speed);
     } else if (room < 0.0) {
-      return kMiss;
+      return kNoHit;
     }
   }
-  return enters <= leaves ? enters : kMiss;
+  return enters <= leaves ? enters : kNoHit;
 }
 
 }  // namespace

@@ -105,9 +105,13 @@ TEST(CushionMarkers, ShowHemPressureAndGapOfEachCell) {
   EXPECT_EQ(markers[0].points.size(), 8U);
   for (const Marker& marker : markers) {
     EXPECT_EQ(marker.header.frame_id, "rc5/base_link");
-    if (marker.ns == "rc5/gap") EXPECT_EQ(marker.text, "3.0 mm");
+    if (marker.ns == "rc5/gap") {
+      EXPECT_EQ(marker.text, "3.0 mm");
+    }
     // At the mean pressure a pillar is as long as its cell is wide.
-    if (marker.ns == "rc5/pressure") EXPECT_NEAR(marker.scale.z, std::sqrt(0.027), 1e-3);
+    if (marker.ns == "rc5/pressure") {
+      EXPECT_NEAR(marker.scale.z, std::sqrt(0.027), 1e-3);
+    }
   }
   EXPECT_EQ(cushionMarkers(craft, {}).size(), 1U);  // no message yet
   EXPECT_TRUE(cushionMarkers(loadScenarioFile("config/hovercraft.yaml").vehicles[0], {}).empty());

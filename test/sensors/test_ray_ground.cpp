@@ -96,7 +96,9 @@ TEST(RayGround, AgreesWithAMarchAlongTheBeam) {
     if (range <= 6.0) {
       ++hits;
       EXPECT_NEAR(std::min(above(p), 0.0) * (range == 0.0 ? 0.0 : 1.0), 0.0, 1e-12);
-      if (range > 0.0) EXPECT_NEAR(above(p + range * d), 0.0, 1e-9) << trial;
+      if (range > 0.0) {
+        EXPECT_NEAR(above(p + range * d), 0.0, 1e-9) << trial;
+      }
     }
     for (double t = 0.0; t < std::min(range, 6.0) - 1e-6; t += 1e-3) {
       ASSERT_GT(above(p + t * d), -1e-9) << trial << " " << t << " of " << range;

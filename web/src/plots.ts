@@ -3,8 +3,9 @@ import type { Panel } from './data';
 import { element } from './dom';
 import { numberText, timeText } from './format';
 import { tableOf, type Table } from './overlay';
-import { drawSteps } from './steps';
 import type { Player } from './player';
+import { rangeOf } from './range';
+import { drawSteps } from './steps';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
 const HEIGHT = 190;
@@ -157,7 +158,7 @@ class Plot {
       height: HEIGHT,
       legend: { live: true },
       cursor: { drag: { x: true, y: false }, points: { size: 5 }, y: false },
-      scales: { x: { time: false, min: board.range[0], max: board.range[1] } },
+      scales: { x: { time: false, min: board.range[0], max: board.range[1] }, y: { range: (_, min, max) => rangeOf(min, max) } },
       axes: [
         { ...axis, size: 26 },
         { ...axis, size: 52, values: (_, ticks) => ticks.map((tick) => String(tick).replace('-', '\u2212')) },

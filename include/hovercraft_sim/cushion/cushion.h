@@ -47,11 +47,11 @@ struct FanSpeedPoint {
 /// A lift fan as each of the cells that it feeds sees it.
 struct CushionFan {
   std::string name;
-  FanCurve curve;                     // of one cell's share
-  Vector3 p_HI = Vector3::Zero();     // intake, in the hull frame, m
-  double speed = 1.0;                 // share of the nominal speed, >= 0
-  std::vector<FanSpeedPoint> speeds;  // instead of it: in between on straight lines, held at the
-                                      // ends; times ascend. Empty: always `speed`
+  FanCurve curve;                          // of one cell's share
+  Vector3 p_HI = Vector3::Zero();          // intake, in the hull frame, m
+  double speed = 1.0;                      // share of the nominal speed, >= 0
+  std::vector<FanSpeedPoint> speeds = {};  // instead of it: in between on straight lines, held at
+                                           // the ends; times ascend. Empty: always `speed`
 
   /// @param time s.
   double speedAt(double time) const;

@@ -55,7 +55,8 @@ struct RunSummary {
 
 /// Steps a simulation to the plan's last tick as fast as it goes: commands from the source, states
 /// to the sink, which is closed at the end.
-/// @param simulation at the beginning of the run; its on_applied, on_contact and on_sample are taken over.
+/// @param simulation at the beginning of the run; its on_applied, on_contact and on_sample are
+/// taken over.
 HOVERCRAFT_PUBLIC RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
                                  const RunPlan& plan);
 
