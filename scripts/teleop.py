@@ -51,7 +51,10 @@ class Terminal:
         self.take()
 
     def __exit__(self, *_):
-        termios.tcsetattr(self.descriptor, termios.TCSANOW, self.settings)
+        try:
+            termios.tcsetattr(self.descriptor, termios.TCSANOW, self.settings)
+        except termios.error:
+            pass  # the terminal is gone: so do its settings
 
     def keys(self, wait):
         """What was typed within `wait` s; None at the end of the input."""

@@ -2,21 +2,24 @@
 
 #include <cmath>
 
-#include <hovercraft_sim/ThrustCommand.h>
 #include <ros/console.h>
+#include <ros/single_subscriber_publisher.h>
 #include <ros/transport_hints.h>
 
 #include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/sim/velocity_parameters.h"
+#include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft_ros {
 
 VelocityNodeConfig parseVelocityNodeConfig(const hovercraft::ConfigNode& parameters,
                                            const std::string& node_name) {
   const hovercraft::ConfigReader reader(parameters, node_name);
-  reader.allowOnly({"mass", "yaw_inertia", "center_x", "center_y", "linear_drag", "quadratic_drag",
-                    "actuators", "response_time", "proportional", "integral", "timeout"});
-  const hovercraft::VelocityParameters read = hovercraft::parseVelocityParameters(reader);
+  reader.allowOnly({"parameters", "timeout"});
+  const std::string source = node_name + "/parameters";
+  const hovercraft::ConfigReader craft(hovercraft::treeOf(reader.text("parameters"), source),
+                                       source);
+  const hovercraft::VelocityParameters read = hovercraft::parseVelocityParameters(craft);
   VelocityNodeConfig config;
   config.plant = read.plant;
   config.gains = read.gains;
@@ -27,7 +30,11 @@ VelocityNodeConfig parseVelocityNodeConfig(const hovercraft::ConfigNode& paramet
 VelocityNode::VelocityNode(ros::NodeHandle& handle, const VelocityNodeConfig& config)
     : config_(config), law_(config.plant, config.gains) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
-  thrust_ = handle.advertise<hovercraft_sim::ThrustCommand>("thrust", 10);
+  // In lockstep the simulation waits for the first answer even if it came before its connection.
+  const ros::SubscriberStatusCallback repeat = [this](const ros::SingleSubscriberPublisher& to) {
+    if (!answer_.header.stamp.isZero()) to.publish(answer_);
+  };
+  thrust_ = handle.advertise<hovercraft_sim::ThrustCommand>("thrust", 10, repeat);
   const boost::function<void(const geometry_msgs::Twist&)> take =
       [this](const geometry_msgs::Twist& command) { this->take(command); };
   commands_ =
@@ -76,7 +83,8 @@ void VelocityNode::answer(const nav_msgs::Odometry& odometry) {
     command.left = f[1];
     command.right = f[2];
   }
-  thrust_.publish(command);
+  answer_ = command;
+  thrust_.publish(answer_);
 }
 
 }  // namespace hovercraft_ros

@@ -76,6 +76,8 @@ std::string velocityYaml(const VelocityParameters& parameters, const std::string
 
 VelocityParameters parseVelocityParameters(const ConfigReader& reader) {
   const FloatingPointEnvironment environment;
+  reader.allowOnly({"mass", "yaw_inertia", "center_x", "center_y", "linear_drag", "quadratic_drag",
+                    "actuators", "response_time", "proportional", "integral"});
   VelocityParameters parameters;
   VelocityPlant& plant = parameters.plant;
   plant.mass = reader.number("mass", kPositive);

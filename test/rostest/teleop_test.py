@@ -123,5 +123,5 @@ class TeleopTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    rospy.init_node('teleop_test')
-    rostest.rosrun('hovercraft_sim', 'teleop', TeleopTest)
+    rospy.init_node('helm_test')
+    rostest.rosrun('hovercraft_sim', 'helm', TeleopTest)

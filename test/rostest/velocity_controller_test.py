@@ -34,6 +34,7 @@ class VelocityControllerTest(unittest.TestCase):
         cls.wires = [rospy.Subscriber(topic, kind, cls.hear, topic, queue_size=100000) for topic, kind in kinds.items()]
         cls.odom = rospy.Subscriber(CRAFT + 'odom', Odometry, cls.on_odom, queue_size=100000)
         wait_for_connections(*cls.wires, cls.odom, cls.commands)
+        service('resume', Trigger)()
         wait_until(lambda: cls.odoms and cls.odoms[-1].header.stamp.to_sec() > SILENT, 'the end of the flight')
         service('pause', Trigger)()
 

@@ -192,7 +192,10 @@ TEST(VelocityControl, ABadParameterIsNamed) {
   EXPECT_EQ(complaint("min_thrust: 0", "min_thrust: 1"),
             "gains: actuators.rear.min_thrust = 1: must be 0 or less");
   EXPECT_EQ(complaint("response_time: [", "response_times: ["),
-            "gains: response_time: the key is missing");
+            "gains: response_times = [0.1, 0.1, 0.1]: unknown key; known here: mass, yaw_inertia, "
+            "center_x, center_y, linear_drag, quadratic_drag, actuators, response_time, "
+            "proportional, integral");
+  EXPECT_EQ(complaint("mass: 5.15\n", ""), "gains: mass: the key is missing");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <geometry_msgs/Twist.h>
+#include <hovercraft_sim/ThrustCommand.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -22,8 +23,8 @@ struct VelocityNodeConfig {
   double timeout = 0.5;  // s of the odometry's time since the last cmd_vel; then thrusts are 0
 };
 
-/// @param parameters the node's private namespace: those of a file of velocity_gains, and
-/// `timeout`. @param node_name begins every error.
+/// @param parameters the node's private namespace: `parameters`, the text of a file of
+/// velocity_gains, and `timeout`. @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
 HOVERCRAFT_PUBLIC VelocityNodeConfig
 parseVelocityNodeConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name);
@@ -49,6 +50,7 @@ class HOVERCRAFT_PUBLIC VelocityNode {
   std::optional<ros::Time> last_;       // stamp of the last odometry
   std::optional<ros::Time> commanded_;  // stamp of the odometry after which the last command came
   bool has_new_command_ = false;
+  hovercraft_sim::ThrustCommand answer_;  // the last one
   WarningLimiter warnings_;
   ros::Publisher thrust_;
   ros::Subscriber commands_;
