@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""From sensor_msgs/Joy to cmd_vel or thrust, by a mapping in YAML (config/joy.yaml); doc/helm.md has the keys."""
+"""From sensor_msgs/Joy to cmd_vel or thrust, by a mapping in YAML (config/helm/joy.yaml); doc/helm.md has the keys."""
 
 import math
 import sys

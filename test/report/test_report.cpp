@@ -18,6 +18,7 @@
 #include "hovercraft_sim/report/report.h"
 #include "hovercraft_sim/report/run_reader.h"
 #include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/sim/number_text.h"
 
 #include "../support/files.h"
 #include "../support/scenarios.h"
@@ -38,7 +39,7 @@ class Report : public ::testing::Test {
     request.scenario = folder_.write("scenario.yaml", scenario);
     if (!commands.empty()) request.commands = folder_.write("commands.csv", commands);
     if (!set.empty()) request.sets = {set};
-    request.duration = duration;
+    request.duration = hovercraft::numberText(duration);
     request.output = folder_.file(name);
     std::ostringstream ignored;
     simulate(request, ignored);

@@ -74,7 +74,7 @@ class VelocityControllerTest(unittest.TestCase):
 
     def test_the_configuration_for_robot_localization_has_its_shape(self):
         """Its schema only: Debian has no robot_localization."""
-        with open(os.path.join(rospkg.RosPack().get_path('hovercraft_sim'), 'config', 'ekf.yaml')) as file:
+        with open(os.path.join(rospkg.RosPack().get_path('hovercraft_sim'), 'config', 'helm', 'ekf.yaml')) as file:
             keys = yaml.safe_load(file)
         known = {'frequency', 'two_d_mode', 'publish_tf', 'map_frame', 'odom_frame', 'base_link_frame', 'world_frame', 'odom0',
                  'odom0_config', 'imu0', 'imu0_config', 'imu0_remove_gravitational_acceleration'}
