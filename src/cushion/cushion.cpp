@@ -116,9 +116,52 @@ Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
   point_pairs_ = mirrorPairs(placed_points);
 }
 
-FanSpeeds Cushion::describedSpeeds() const {
+double CushionFan::speedAt(double time) const {
+  if (speeds.empty()) return speed;
+  if (!(time > speeds.front().time)) return speeds.front().speed;
+  for (std::size_t i = 1; i < speeds.size(); ++i) {
+    const FanSpeedPoint& from = speeds[i - 1];
+    const FanSpeedPoint& to = speeds[i];
+    if (time >= to.time) continue;
+    return from.speed + (time - from.time) / (to.time - from.time) * (to.speed - from.speed);
+  }
+  return speeds.back().speed;
+}
+
+double CushionFan::fullSpeed() const {
+  double most = speeds.empty() ? speed : 0.0;
+  for (const FanSpeedPoint& point : speeds) most = std::max(most, point.speed);
+  return most;
+}
+
+FanSpeedCourse FanSpeedCourse::piece(double from, double to, double h) const {
+  const auto speedsAt = [&](double share) {
+    const bool is_early = share < 0.5;
+    const FanSpeeds& first = is_early ? start : middle;
+    const FanSpeeds& second = is_early ? middle : end;
+    const double part = is_early ? 2.0 * share : 2.0 * share - 1.0;
+    FanSpeeds speeds;
+    for (std::size_t i = 0; i < kMaxFans; ++i) {
+      speeds[i] = first[i] + part * (second[i] - first[i]);
+    }
+    return speeds;
+  };
+  return {speedsAt(from / h), speedsAt(0.5 * (from + to) / h), speedsAt(to / h)};
+}
+
+FanSpeeds Cushion::describedSpeeds(double time) const {
   FanSpeeds speeds = {};
-  for (std::size_t i = 0; i < parameters_.fans.size(); ++i) speeds[i] = parameters_.fans[i].speed;
+  for (std::size_t i = 0; i < parameters_.fans.size(); ++i) {
+    speeds[i] = parameters_.fans[i].speedAt(time);
+  }
+  return speeds;
+}
+
+FanSpeeds Cushion::fullSpeeds() const {
+  FanSpeeds speeds = {};
+  for (std::size_t i = 0; i < parameters_.fans.size(); ++i) {
+    speeds[i] = parameters_.fans[i].fullSpeed();
+  }
   return speeds;
 }
 

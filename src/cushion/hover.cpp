@@ -107,6 +107,11 @@ std::array<double, 2> armsOf(const Cushion& cushion) {
   return {std::max(x, least), std::max(y, least)};
 }
 
+/// Steps of the differences by attitude: the hem moves by `step` at most, m; angles stay small.
+Attitude attitudeSteps(double step, const std::array<double, 2>& arms) {
+  return {step, std::min(step / arms[0], kMostTrim), std::min(step / arms[1], kMostTrim)};
+}
+
 /// One step of Newton's method: at -= slopes⁻¹ loads.
 Attitude corrected(const Attitude& at, const Slopes& slopes, const Loads& loads) {
   Matrix3 J;
@@ -135,7 +140,7 @@ bool trim(const HoverPoint& point, double gap, Attitude& at) {
   // A level symmetric craft has no moments: nothing that rounding could tilt is solved for.
   if (loads[1] == 0.0 && loads[2] == 0.0) return true;
   for (int i = 0; i < kMostTrimSteps && !isBalanced(loads, weight, arms); ++i) {
-    const Slopes slopes = slopesOf(point, at, {step, step / arms[0], step / arms[1]}, false);
+    const Slopes slopes = slopesOf(point, at, attitudeSteps(step, arms), false);
     const Attitude next = corrected(at, slopes, loads);
     if (!std::isfinite(next[0] + next[1] + next[2])) return false;
     at = next;
@@ -167,7 +172,7 @@ void findModes(const HoverPoint& point, const Attitude& at, Hover& hover) {
   for (const CushionCell& cell : point.cushion().parameters().cells) area += cell.area;
   const double step = kDifferenceShare * hover.gap;
   const double rate = kDifferenceShare * hover.flow / area;
-  const Slopes K = slopesOf(point, at, {step, step / arms[0], step / arms[1]}, false);
+  const Slopes K = slopesOf(point, at, attitudeSteps(step, arms), false);
   const Slopes D = slopesOf(point, at, {rate, rate / arms[0], rate / arms[1]}, true);
   const Matrix3& I = point.body().I_BBo_B;
   const std::array<double, kHoverMotions> inertias = {point.body().mass, I(1, 1), I(0, 0)};
@@ -284,7 +289,9 @@ double longestStableStep(Integrator integrator, const HoverMode& mode) {
     // square h² + 2 rate h < 4.
     return 4.0 / (rate + std::sqrt(rate * rate + 4.0 * square));
   }
-  const std::complex<double> root = std::sqrt(std::complex<double>(0.25 * rate * rate - square));
+  const double inner = 0.25 * rate * rate - square;
+  const double size = std::sqrt(std::abs(inner));
+  const std::complex<double> root(inner > 0.0 ? size : 0.0, inner > 0.0 ? 0.0 : size);
   double longest = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& lambda : {-0.5 * rate + root, -0.5 * rate - root}) {
     if (lambda == 0.0) continue;  // a displacement that nothing brings back

@@ -22,6 +22,10 @@ constexpr double kTextHeight = 0.2;      // of it
 constexpr double kSheet = 20.0;          // m, edge of what is shown of a plane
 constexpr std::size_t kMostShown = 200;  // rows and columns of a height map that are drawn
 
+/// The corners of two triangles that make a square of edge 1.
+constexpr std::array<std::array<int, 2>, 6> kTwoTriangles = {
+    {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}};
+
 std_msgs::ColorRGBA colorOf(float r, float g, float b, float a) {
   std_msgs::ColorRGBA color;
   color.r = r;
@@ -104,9 +108,9 @@ struct SurfacePainter {
       const Vector3& n = plane.normal;
       return toPointMessage({x, y, plane.height - (n.x() * x + n.y() * y) / n.z()});
     };
-    for (const auto& [x, y] :
-         {std::array{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
-      target.points.push_back(pointAt(half * x, half * y));
+    for (const auto& corner : kTwoTriangles) {
+      target.points.push_back(
+          pointAt(half * (2.0 * corner[0] - 1.0), half * (2.0 * corner[1] - 1.0)));
     }
   }
   void operator()(const hovercraft::HeightMapScenario& map) const {
@@ -114,9 +118,9 @@ struct SurfacePainter {
     const std::size_t step = 1 + std::max(grid.columns, grid.rows) / kMostShown;
     for (std::size_t row = 0; row + step < grid.rows; row += step) {
       for (std::size_t column = 0; column + step < grid.columns; column += step) {
-        for (const auto& [i, j] :
-             {std::array<std::size_t, 2>{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}}) {
-          add(map, column + i * step, row + j * step);
+        for (const auto& corner : kTwoTriangles) {
+          add(map, column + static_cast<std::size_t>(corner[0]) * step,
+              row + static_cast<std::size_t>(corner[1]) * step);
         }
       }
     }

@@ -54,7 +54,7 @@ class CushionCheck {
     }
     checkFooting();
     const Cushion cushion(cushion_, vehicle_.mass_properties.p_HB);
-    checkHover(hoverOf(cushion, hoverBodyOf(scenario_, vehicle_), cushion.describedSpeeds()));
+    checkHover(hoverOf(cushion, hoverBodyOf(scenario_, vehicle_), cushion.fullSpeeds()));
   }
 
  private:
@@ -66,7 +66,7 @@ class CushionCheck {
     double force = 0.0;
     for (const CushionCell& cell : cushion_.cells) {
       const CushionFan& fan = cushion_.fans[cell.fan];
-      force += (fan.speed * fan.speed) * fan.curve.shutoff * cell.area;
+      force += (fan.fullSpeed() * fan.fullSpeed()) * fan.curve.shutoff * cell.area;
     }
     return force;
   }

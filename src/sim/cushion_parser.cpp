@@ -16,7 +16,7 @@ CushionFan parseFan(const std::string& name, const ConfigReader& reader) {
   if (!isGraphName(name)) {
     reader.fail("", "a name is a ROS name: a letter, then letters, digits and _");
   }
-  reader.allowOnly({"shutoff", "slope", "curve", "intake", "speed"});
+  reader.allowOnly({"shutoff", "slope", "curve", "intake", "speed", "speeds"});
   CushionFan fan;
   fan.name = name;
   fan.curve.shutoff = reader.number("shutoff", kPositive);
@@ -28,11 +28,23 @@ CushionFan parseFan(const std::string& name, const ConfigReader& reader) {
                 "flow");
   }
   fan.p_HI = reader.vectorOr(Vector3::Zero(), "intake", kCoordinate);
+  if (reader.has("speed") && reader.has("speeds")) {
+    reader.fail("speeds", "must not stand beside speed");
+  }
   fan.speed = reader.numberOr(1.0, "speed", kNotNegative);
+  if (!reader.has("speeds")) return fan;
+  for (const ConfigReader& point : reader.list("speeds")) {
+    point.allowOnly({"time", "speed"});
+    const double time = point.number("time", kNotNegative);
+    if (!fan.speeds.empty() && !(time > fan.speeds.back().time)) {
+      point.fail("time", "must be greater than the time before it");
+    }
+    fan.speeds.push_back({time, point.number("speed", kNotNegative)});
+  }
   return fan;
 }
 
-std::vector<std::string> namesOf(const std::vector<CushionFan>& fans) {
+std::vector<std::string> fanNames(const std::vector<CushionFan>& fans) {
   std::vector<std::string> names;
   names.reserve(fans.size());
   for (const CushionFan& fan : fans) names.push_back(fan.name);
@@ -42,7 +54,7 @@ std::vector<std::string> namesOf(const std::vector<CushionFan>& fans) {
 /// The fan that a cell or all cells of a rectangle name; the only one if they name none.
 std::size_t fanOf(const ConfigReader& reader, const std::vector<CushionFan>& fans) {
   if (fans.size() > 1) reader.text("fan");  // must be there
-  return reader.choiceOr(0, "fan", namesOf(fans));
+  return reader.choiceOr(0, "fan", fanNames(fans));
 }
 
 CushionCell parseCell(const ConfigReader& reader, const std::vector<CushionFan>& fans) {
@@ -56,7 +68,6 @@ CushionCell parseCell(const ConfigReader& reader, const std::vector<CushionFan>&
     point.allowOnly({"p", "length"});
     cell.hem.push_back({point.vector("p", kCoordinate), point.length("length")});
   }
-  if (cell.hem.empty()) reader.fail("hem", "must have at least one point");
   return cell;
 }
 
@@ -172,6 +183,16 @@ Skirt parseSkirt(const ConfigReader& reader) {
   return skirt;
 }
 
+std::string speedText(const CushionFan& fan) {
+  if (fan.speeds.empty()) return "speed: " + yamlNumber(fan.speed);
+  std::string points;
+  for (const FanSpeedPoint& point : fan.speeds) {
+    points += fmt::format("{}{{time: {}, speed: {}}}", points.empty() ? "" : ", ",
+                          yamlNumber(point.time), yamlNumber(point.speed));
+  }
+  return "speeds: [" + points + "]";
+}
+
 std::string cellYaml(const CushionCell& cell, const std::vector<CushionFan>& fans) {
   std::string hem;
   for (const HemPoint& point : cell.hem) {
@@ -217,9 +238,9 @@ std::string cushionYaml(const VehicleScenario& vehicle) {
       yamlNumber(cushion.air_density));
   for (const CushionFan& fan : cushion.fans) {
     yaml +=
-        fmt::format("        {}: {{shutoff: {}, slope: {}, curve: {}, intake: {}, speed: {}}}\n",
+        fmt::format("        {}: {{shutoff: {}, slope: {}, curve: {}, intake: {}, {}}}\n",
                     yamlText(fan.name), yamlNumber(fan.curve.shutoff), yamlNumber(fan.curve.slope),
-                    yamlNumber(fan.curve.curve), yamlVector(fan.p_HI), yamlNumber(fan.speed));
+                    yamlNumber(fan.curve.curve), yamlVector(fan.p_HI), speedText(fan));
   }
   yaml += "      cells:\n";
   for (const CushionCell& cell : cushion.cells) yaml += cellYaml(cell, cushion.fans);

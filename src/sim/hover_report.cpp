@@ -1,5 +1,6 @@
 #include "hovercraft_sim/sim/hover_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -23,7 +24,7 @@ constexpr const char* kStatusTexts[] = {
     "does not come down: the fans carry it at any height",
     "does not hover level: the centre of mass is too far from the middle of the cells"};
 
-HoverReport reportOn(const Scenario& scenario, const VehicleScenario& vehicle) {
+HoverReport hoverReportOn(const Scenario& scenario, const VehicleScenario& vehicle) {
   HoverReport report;
   report.vehicle = vehicle.name;
   report.mass = vehicle.mass_properties.mass;
@@ -34,16 +35,16 @@ HoverReport reportOn(const Scenario& scenario, const VehicleScenario& vehicle) {
     for (const HemPoint& hem : cell.hem) report.hem_length += hem.length;
   }
   const Cushion cushion = *cushionOf(vehicle);
-  report.hover = hoverOf(cushion, body, cushion.describedSpeeds());
+  report.hover = hoverOf(cushion, body, cushion.fullSpeeds());
   report.mass_flow = vehicle.cushion->air_density * report.hover.flow;
   return report;
 }
 
-std::string line(const char* name, double value, const char* unit) {
+std::string hoverLine(const char* name, double value, const char* unit) {
   return fmt::format("  {:<20}{:>14.6g} {}\n", name, value, unit);
 }
 
-std::string stepText(double step) {
+std::string longestStepText(double step) {
   return std::isinf(step) ? "any" : fmt::format("{:.4g}", step);
 }
 
@@ -62,31 +63,31 @@ std::string modesText(const Hover& hover) {
     for (const Integrator integrator : kIntegrators) {
       const std::size_t width =
           std::max<std::size_t>(10, kIntegratorNames[static_cast<std::size_t>(integrator)].size());
-      text += fmt::format("  {:>{}}", stepText(longestStableStep(integrator, mode)), width);
+      text += fmt::format("  {:>{}}", longestStepText(longestStableStep(integrator, mode)), width);
     }
     text += "\n";
   }
   return text;
 }
 
-std::string textOf(const HoverReport& report) {
+std::string hoverText(const HoverReport& report) {
   const Hover& hover = report.hover;
   std::string text = fmt::format("vehicle {}: {}\n", report.vehicle,
                                  kStatusTexts[static_cast<std::size_t>(hover.status)]);
-  text += line("weight", report.weight, "N");
-  text += line("cushion area", report.area, "m^2");
-  text += line("hem length", report.hem_length, "m");
-  text += line("lift-off speed", hover.lift_off_speed, "of the fans' nominal speed");
+  text += hoverLine("weight", report.weight, "N");
+  text += hoverLine("cushion area", report.area, "m^2");
+  text += hoverLine("hem length", report.hem_length, "m");
+  text += hoverLine("lift-off speed", hover.lift_off_speed, "of the fans' nominal speed");
   if (hover.status != HoverStatus::kHovers) return text;
-  text += line("gap", hover.gap, "m");
-  text += line("pressure", hover.pressure, "Pa");
-  text += line("flow", hover.flow, "m^3/s");
-  text += line("power", hover.power, "W (in the air)");
-  text += line("momentum drag", report.mass_flow, "N s/m");
-  text += line("height", hover.height, "m (centre of mass)");
-  text += line("roll", hover.roll, "rad");
-  text += line("pitch", hover.pitch, "rad");
-  text += line("load on the skirt", hover.skirt_load, "N");
+  text += hoverLine("gap", hover.gap, "m");
+  text += hoverLine("pressure", hover.pressure, "Pa");
+  text += hoverLine("flow", hover.flow, "m^3/s");
+  text += hoverLine("power", hover.power, "W (in the air)");
+  text += hoverLine("momentum drag", report.mass_flow, "N s/m");
+  text += hoverLine("height", hover.height, "m (centre of mass)");
+  text += hoverLine("roll", hover.roll, "rad");
+  text += hoverLine("pitch", hover.pitch, "rad");
+  text += hoverLine("load on the skirt", hover.skirt_load, "N");
   return text + modesText(hover);
 }
 
@@ -107,7 +108,7 @@ std::string modeJson(const HoverMode& mode) {
       steps);
 }
 
-std::string jsonOf(const HoverReport& report) {
+std::string hoverJson(const HoverReport& report) {
   const Hover& hover = report.hover;
   std::string json = fmt::format(
       "{{\"vehicle\": \"{}\", \"status\": \"{}\", \"weight\": {}, \"area\": {}, \"hem_length\": "
@@ -138,7 +139,7 @@ std::vector<HoverReport> hoverReports(const Scenario& scenario, const std::strin
     if (!candidate.cushion) continue;
     names += (names.empty() ? "" : ", ") + candidate.name;
     if (!vehicle.empty() && candidate.name != vehicle) continue;
-    reports.push_back(reportOn(scenario, candidate));
+    reports.push_back(hoverReportOn(scenario, candidate));
   }
   if (!reports.empty()) return reports;
   if (names.empty()) throw std::invalid_argument("no vehicle of the scenario has a cushion");
@@ -149,17 +150,17 @@ std::vector<HoverReport> hoverReports(const Scenario& scenario, const std::strin
 std::string toText(const std::vector<HoverReport>& reports) {
   const FloatingPointEnvironment environment;
   std::string text;
-  for (const HoverReport& report : reports) text += (text.empty() ? "" : "\n") + textOf(report);
+  for (const HoverReport& report : reports) text += (text.empty() ? "" : "\n") + hoverText(report);
   return text;
 }
 
 std::string toJson(const std::vector<HoverReport>& reports) {
   const FloatingPointEnvironment environment;
-  if (reports.size() == 1) return jsonOf(reports.front()) + "\n";
+  if (reports.size() == 1) return hoverJson(reports.front()) + "\n";
   std::string members;
   for (const HoverReport& report : reports) {
-    members +=
-        fmt::format("{}\"{}\": {}", members.empty() ? "" : ",\n", report.vehicle, jsonOf(report));
+    members += fmt::format("{}\"{}\": {}", members.empty() ? "" : ",\n", report.vehicle,
+                           hoverJson(report));
   }
   return "{\"vehicles\": {\n" + members + "}}\n";
 }

@@ -154,12 +154,23 @@ void Simulation::applyDueCommands() {
 }
 
 /// What acts on each body in the step that begins now.
+/// The speeds of the fans over the step, at its stages.
+void Simulation::turnFans(const Cushion& cushion, FanSpeedCourse& course) const {
+  const double start = toSeconds(timeNs());
+  const double h = toSeconds(scenario_.step_ns);
+  course.start = cushion.describedSpeeds(start);
+  course.middle = cushion.describedSpeeds(start + 0.5 * h);
+  course.end = cushion.describedSpeeds(start + h);
+}
+
 void Simulation::prepareInputs() {
   std::size_t vehicle = 0;
   for (const EngineStates& engines : state_.engines) {
     StepInputs& inputs = inputs_[vehicle];
     inputs.thrusts = engine_dynamics_[vehicle].course(engines, state_.tick);
     inputs.is_loaded = false;
+    const auto& forces = modelOf(vehicle).ground_forces;
+    if (forces != nullptr && forces->cushion()) turnFans(*forces->cushion(), inputs.fan_speeds);
     ++vehicle;
   }
   for (const ExternalWrench& external : state_.wrenches) {
@@ -295,11 +306,11 @@ void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const
       std::visit([&](const auto& state) { return model.motionInBody(state, environment_); },
                  state_.bodies[vehicle]);
   const GroundForces& forces = *model.ground_forces;
-  forces.report(motion, environment_, report.cells.data());
+  const FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
+  forces.report(motion, environment_, speeds, report.cells.data());
   for (const CellReport& cell : report.cells) report.power += cell.pressure * cell.flow;
   const std::size_t fan_count = forces.cushion()->parameters().fans.size();
-  report.fan_speeds.assign(forces.fanSpeeds().begin(),
-                           forces.fanSpeeds().begin() + static_cast<std::ptrdiff_t>(fan_count));
+  report.fan_speeds.assign(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(fan_count));
 }
 
 EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {

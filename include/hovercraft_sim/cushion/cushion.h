@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/cushion/body_motion.h"
 #include "hovercraft_sim/cushion/cell_pressure.h"
 #include "hovercraft_sim/cushion/fan_curve.h"
@@ -37,12 +38,24 @@ struct CushionCell {
   std::vector<HemPoint> hem;
 };
 
+/// A speed (share of the nominal one, >= 0) that a fan has at a time (s).
+struct FanSpeedPoint {
+  double time = 0.0;
+  double speed = 1.0;
+};
+
 /// A lift fan as each of the cells that it feeds sees it.
 struct CushionFan {
   std::string name;
-  FanCurve curve;                  // of one cell's share
-  Vector3 p_HI = Vector3::Zero();  // intake, in the hull frame, m
-  double speed = 1.0;              // share of the nominal speed, >= 0
+  FanCurve curve;                     // of one cell's share
+  Vector3 p_HI = Vector3::Zero();     // intake, in the hull frame, m
+  double speed = 1.0;                 // share of the nominal speed, >= 0
+  std::vector<FanSpeedPoint> speeds;  // instead of it: in between on straight lines, held at the
+                                      // ends; times ascend. Empty: always `speed`
+
+  /// @param time s.
+  double speedAt(double time) const;
+  double fullSpeed() const;  // the greatest
 };
 
 /// The skirt as a spring.
@@ -63,6 +76,21 @@ struct CushionParameters {
 
 /// The speeds of the fans, shares of their nominal ones.
 using FanSpeeds = std::array<double, kMaxFans>;
+
+/// The speeds of the fans over one step: at its stages, and in between.
+struct FanSpeedCourse {
+  FanSpeeds start;
+  FanSpeeds middle;
+  FanSpeeds end;
+
+  /// Over the piece from `from` to `to` of a step of h, all in s: straight between the stages.
+  FanSpeedCourse piece(double from, double to, double h) const;
+
+  const FanSpeeds& at(Stage stage) const {
+    if (stage == Stage::kStart) return start;
+    return stage == Stage::kMiddle ? middle : end;
+  }
+};
 
 /// One cell as it is reported.
 struct CellReport {
@@ -96,8 +124,10 @@ class HOVERCRAFT_PUBLIC Cushion {
               CellReport* reports) const;
   void planarReport(const FanSpeeds& speeds, double load, CellReport* reports) const;
 
-  /// The fans' speeds as they are described.
-  FanSpeeds describedSpeeds() const;
+  /// The fans' speeds as they are described, at a time, s.
+  FanSpeeds describedSpeeds(double time) const;
+  /// The greatest that they are described with.
+  FanSpeeds fullSpeeds() const;
 
   std::size_t cellCount() const { return cells_.size(); }
   const CushionParameters& parameters() const { return parameters_; }

@@ -19,19 +19,18 @@ class HOVERCRAFT_PUBLIC GroundForces {
   GroundForces(std::optional<Cushion> cushion, Pads pads, std::optional<double> planar_load);
 
   /// The wrench on the body about its centre of mass, in B. Not inlined: a craft without it keeps
-  /// the code of its step.
-  [[gnu::noinline]] Wrench wrenchInBody(const BodyMotion& motion,
-                                        const Environment& environment) const;
+  /// the code of its step. @param speeds of the fans; only with a cushion.
+  [[gnu::noinline]] Wrench wrenchInBody(const BodyMotion& motion, const Environment& environment,
+                                        const FanSpeeds& speeds) const;
 
   const std::optional<Cushion>& cushion() const { return cushion_; }
-  const FanSpeeds& fanSpeeds() const { return speeds_; }
   /// @param reports one for each cell. Only with a cushion.
-  void report(const BodyMotion& motion, const Environment& environment, CellReport* reports) const;
+  void report(const BodyMotion& motion, const Environment& environment, const FanSpeeds& speeds,
+              CellReport* reports) const;
 
  private:
   std::optional<Cushion> cushion_;
   Pads pads_;
-  FanSpeeds speeds_ = {};
   std::optional<double> planar_load_;
 };
 

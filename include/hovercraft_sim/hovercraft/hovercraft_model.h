@@ -31,12 +31,13 @@ struct HovercraftModel {
             transposeTimes(R_WB, v_WB - environment.wind_W)};
   }
 
-  /// dY/dt with the engines at `thrusts` (rear, left, right; N) in the air of `environment`. The
+  /// dY/dt with the engines at `thrusts` (rear, left, right; N) and the fans of the cushion at
+  /// `fan_speeds` (of a craft with ground forces), in the air of `environment`. The
   /// wrench is built in B and rotated into W, its moment as its force (errata 18).
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
-                                          const Vector3& thrusts,
-                                          const Environment& environment) const {
+                                          const Vector3& thrusts, const Environment& environment,
+                                          const FanSpeeds* fan_speeds = nullptr) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
     const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
@@ -44,7 +45,7 @@ struct HovercraftModel {
     Wrench wrench_B = engines.wrenchInBody(thrusts) + drag.wrenchInBody(u_B, w_WB_B);
     if (ground_forces != nullptr) {
       const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
-      wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment);
+      wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment, *fan_speeds);
     }
     const Wrench wrench_W =
         mobility.project({times(R_WB, wrench_B.force) + weight_W, times(R_WB, wrench_B.torque)});

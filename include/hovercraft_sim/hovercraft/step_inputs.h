@@ -23,6 +23,7 @@ struct StepInputs {
   ExternalLoad load;
   bool is_loaded = false;  // else `load` counts for nothing
   Environment environment;
+  FanSpeedCourse fan_speeds = {};  // of the whole step; of a craft with a cushion
 };
 
 /// A piece of a step, s from its start; contact cuts a step at every impact.
@@ -36,12 +37,15 @@ struct DrivenBody {
   const HovercraftModel& model;
   const ThrustCourse& thrusts;  // at the start, middle and end of the piece
   const Environment& environment;
-  const ExternalLoad* load = nullptr;  // none
+  const ExternalLoad* load = nullptr;          // none
+  const FanSpeedCourse* fan_speeds = nullptr;  // over the piece; of a craft with ground forces
 
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
-    StateDerivative<Orientation> rate = model.derivative(state, thrusts.at(stage), environment);
+    StateDerivative<Orientation> rate =
+        model.derivative(state, thrusts.at(stage), environment,
+                         fan_speeds == nullptr ? nullptr : &fan_speeds->at(stage));
     if (load != nullptr) {
       const Matrix3 R_WB = rotationMatrix(state.orientation);
       const Wrench pushed =

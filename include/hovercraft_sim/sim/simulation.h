@@ -155,6 +155,7 @@ class HOVERCRAFT_PUBLIC Simulation {
  private:
   void applyDueCommands();
   void endWrenches();
+  void turnFans(const Cushion& cushion, FanSpeedCourse& course) const;
   void prepareInputs();
   void takeResult();
   [[noreturn]] void failAsDiverged(std::size_t body) const;
