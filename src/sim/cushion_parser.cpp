@@ -41,7 +41,6 @@ CushionFan parseFan(const std::string& name, const ConfigReader& reader) {
     }
     fan.speeds.push_back({time, point.number("speed", kNotNegative)});
   }
-  if (fan.speeds.empty()) reader.fail("speeds", "must have at least one point");
   return fan;
 }
 
@@ -69,7 +68,6 @@ CushionCell parseCell(const ConfigReader& reader, const std::vector<CushionFan>&
     point.allowOnly({"p", "length"});
     cell.hem.push_back({point.vector("p", kCoordinate), point.length("length")});
   }
-  if (cell.hem.empty()) reader.fail("hem", "must have at least one point");
   return cell;
 }
 
