@@ -21,21 +21,28 @@ struct HovercraftModel {
   Vector3 weight_W = Vector3::Zero();  // m g, N
   std::vector<Force> forces = {};      // of the other actuators, in a fixed order
 
-  /// dY/dt with the actuators at `thrusts` in the air of `environment`. The wrench is built in B and
-  /// rotated into W, its moment as its force (errata 18).
+  /// dY/dt with the actuators at `thrusts` in the air of `environment`. The wrench is built in B
+  /// and rotated into W, its moment as its force (errata 18).
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           const ActuatorArray<double>& thrusts,
                                           const Environment& environment) const {
+    return derivativeWith<true>(state, thrusts, environment);
+  }
+
+  /// The same. @param kHasForces false: for a body whose list of forces is empty, which costs less.
+  template <bool kHasForces, class Orientation>
+  StateDerivative<Orientation> derivativeWith(const RigidBodyState<Orientation>& state,
+                                              const ActuatorArray<double>& thrusts,
+                                              const Environment& environment) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
     const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
     const Vector3 u_B = transposeTimes(R_WB, v_WB - environment.wind_W);
     Wrench wrench_B =
         engines.wrenchInBody({thrusts[0], thrusts[1], thrusts[2]}) + drag.wrenchInBody(u_B, w_WB_B);
-    // Out of the way of a craft without any, which keeps its numbers in registers.
-    if (__builtin_expect(static_cast<long>(!forces.empty()), 0L) != 0L) {
-      wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
+    if constexpr (kHasForces) {
+      if (!forces.empty()) wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
     }
     const Wrench wrench_W =
         mobility.project({times(R_WB, wrench_B.force) + weight_W, times(R_WB, wrench_B.torque)});
