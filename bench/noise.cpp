@@ -23,8 +23,8 @@ void printRow(const char* what, double found, double expected, double standard_e
 }  // namespace
 
 int main(int argc, char** argv) {
-  const double draws = argc > 1 ? std::atof(argv[1]) : 1e8;
-  const std::int64_t seed = argc > 2 ? std::atoll(argv[2]) : 1;
+  const double draws = argc > 1 ? std::strtod(argv[1], nullptr) : 1e8;
+  const std::int64_t seed = argc > 2 ? std::strtoll(argv[2], nullptr, 10) : 1;
   const hovercraft::NoiseChannel channel(seed, hovercraft::streamOf("bench/noise/normal"));
   double sums[5] = {};
   double beyond[6] = {};

@@ -45,19 +45,25 @@ system_family() {
   esac
 }
 
-# The packages for one purpose: core (without ROS), core_test, build (and run), test, lint, demo, rviz.
+# The packages for one purpose: core (without ROS), core_test, build (and run), test, lint, demo, papers (plot_run.py), web, rviz.
 packages_for() {
   local common
   case "$1" in
-    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libqhull-dev libyaml-cpp-dev' ;;
+    core) common='g++ make cmake libboost-dev libeigen3-dev libfmt-dev libpng-dev libqhull-dev libyaml-cpp-dev' ;;
     clang) common='clang' ;;
-    build) common="$(packages_for core) libboost-program-options-dev" ;;
+    build) common="$(packages_for core) libboost-program-options-dev zlib1g-dev" ;;
     fast) common='ccache ninja-build' ;;
     test) common="$(packages_for clang) $(packages_for fast) libbenchmark-dev libgtest-dev pkg-config" ;;
     # The versions that decide; clang-tidy 22 takes half the time of 14 (scripts/clang_tidy.py).
     lint) common='clang-format-14 clang-tidy-22 catkin-lint' ;;
     core_test) common='libgtest-dev' ;;
-    demo) common='python3-matplotlib' ;;
+    demo) common='' ;;
+    papers) common='python3-matplotlib' ;;
+    # What makes and tests the front end of pages (scripts/check_page). A node from elsewhere brings its own npm.
+    web)
+      common='nodejs chromium'
+      command -v npm > /dev/null || common+=' npm'
+      ;;
     rviz) common='' ;;
     *) fail "no packages are listed for '$1'" ;;
   esac
@@ -71,9 +77,9 @@ packages_of_debian() {
   case "$1" in
     build) echo catkin ros-message-generation libdiagnostic-updater-dev \
       libbz2-dev libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libnav-msgs-dev \
-      librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev \
+      librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev \
       libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs ros-std-srvs \
-      python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-std-msgs python3-std-srvs \
+      python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs python3-std-msgs python3-std-srvs \
       python3-tf2-msgs python3-visualization-msgs python3-rospy python3-rosservice python3-rosbag python3-roslaunch \
       python3-rostopic rosbash rosout ;;
     # The runtime of clang's sanitizers; before, it was part of what clang depends on.
@@ -87,7 +93,7 @@ packages_of_debian() {
 packages_of_noetic() {
   case "$1" in
     build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs message-generation nav-msgs rosbag rosbash \
-      roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic std-msgs std-srvs tf2-msgs tf2-ros visualization-msgs ;;
+      roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic sensor-msgs std-msgs std-srvs tf2-msgs tf2-ros visualization-msgs ;;
     demo) echo ros-noetic-rostest ;;
     test) printf 'ros-noetic-%s ' rosnode rosmsg rosservice ;;
     rviz) printf 'ros-noetic-%s ' rviz ;;
@@ -141,9 +147,9 @@ explain_unknown_system() {
   fi
   cat >&2 << 'TEXT'
 This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install these by hand, then run this again:
-  a C++17 compiler, make, CMake 3.16, Python 3 with matplotlib
-  Boost (program_options), Eigen 3.3, fmt, qhull, yaml-cpp (with their headers)
-  ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, std_msgs, std_srvs, rosgraph_msgs,
+  a C++17 compiler, make, CMake 3.16, Python 3 (with matplotlib for plot_run.py)
+  Boost (program_options), Eigen 3.3, fmt, libpng, qhull, yaml-cpp, zlib (with their headers)
+  ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, sensor_msgs, std_msgs, std_srvs, rosgraph_msgs,
   visualization_msgs, diagnostic_updater, dynamic_reconfigure, message_generation, roslaunch, rosservice, rosbash, rosout; for the
   tests also rostest, rostopic, rosnode, rosmsg, GoogleTest, Google Benchmark, clang with its sanitizers' runtime;
   for pictures of the running simulation rviz

@@ -17,7 +17,8 @@ import re
 
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
-DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md')
+DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md', 'doc/craft.md', 'doc/contact.md', 'doc/collision.md',
+             'doc/physics.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -60,11 +61,19 @@ RULES = (
     Rule(r'roscore .*', until='/rosout_agg', stays=True),
     Rule(r'markers_node .*', beside=(ROSCORE,), until='/hovercraft_markers/markers', stays=True),
     Rule(r'rviz .*', skip='it opens a window'),
-    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --contacts FILE\.csv', skip=NAMED),
+    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --contacts FILE\.csv|simulate --hold|rosparam delete /use_sim_time',
+         skip=NAMED),
+    Rule(r'roslaunch hovercraft_sim sim\.launch set:=.*', beside=(), until='/hovercraft_sim/scenario'),
     # CONTRIBUTING.md
     Rule(r'cmake .* build/mine .*|build/mine/.*', skip='scripts/test builds and runs the same in build_release'),
+    Rule(r'scripts/(fuzz|mutate) .*', skip=NAMED),
     Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
+    # doc/sensors.md, doc/helm.md
+    Rule(r'replay senses\.bag', says='identical: .* messages of sensors'),
+    Rule(r'roslaunch hovercraft_sim sim\.launch (truth_odom|map):=.*', beside=(), until='/hovercraft_sim/scenario'),
+    Rule(r'roslaunch hovercraft_sim autonomy\.launch', beside=(), until='rostopic echo -n 1 --filter "m.rear > 0.1" /hovercraft/thrust'),
+    Rule(r'rosrun hovercraft_sim (teleop|joy_teleop)\.py.*', skip='it wants a person at a keyboard or a joystick'),
     # doc/time.md
     Rule(r'rosrun dynamic_reconfigure dynparam .*', beside=(SIMULATION,)),
     Rule(r'rosservice call .*', beside=(SIMULATION,), says='success: True'),
@@ -75,4 +84,7 @@ RULES = (
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
     Rule(r'scripts/check_example build_release', skip=SCRIPTS_TEST),
+    # doc/report.md
+    Rule(r'xdg-open .*', skip='it opens a window'),
+    Rule(r'cd web && npm ci && npm run build', skip='scripts/check_page does so'),
 )

@@ -90,22 +90,24 @@ double firstLargeComponent(const Vector3& axis) {
 
 double boxVolume(const Vector3& size) {
   const FloatingPointEnvironment environment;
-  return size.x() * size.y() * size.z();
+  return FloatingPointEnvironment::computed(size.x() * size.y() * size.z());
 }
 
 double sphereVolume(double radius) {
   const FloatingPointEnvironment environment;
-  return 4.0 / 3.0 * kPi * (radius * radius * radius);
+  const double r = FloatingPointEnvironment::computed(radius);
+  return FloatingPointEnvironment::computed(4.0 / 3.0 * kPi * (r * r * r));
 }
 
 double cylinderVolume(double radius, double length) {
   const FloatingPointEnvironment environment;
-  return kPi * (radius * radius) * length;
+  const double r = FloatingPointEnvironment::computed(radius);
+  return FloatingPointEnvironment::computed(kPi * (r * r) * length);
 }
 
 double coneVolume(double radius, double length) {
   const FloatingPointEnvironment environment;
-  return cylinderVolume(radius, length) / 3.0;
+  return FloatingPointEnvironment::computed(cylinderVolume(radius, length) / 3.0);
 }
 
 MassProperties boxMassProperties(double mass, const Vector3& size) {

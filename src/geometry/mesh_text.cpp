@@ -21,10 +21,6 @@ bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-bool isLineEnd(char c) {
-  return c == '\n' || c == '\r';
-}
-
 char lowerCase(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
@@ -59,32 +55,25 @@ MeshText::MeshText(const std::string& content, std::string name)
   }
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 MeshText::LineEnd MeshText::appendLine(std::vector<MeshWord>& words, bool is_obj) {
   if (position_ >= content_.size()) return LineEnd::kEndOfFile;
   ++line_;
-  bool in_comment = false;
+  const std::size_t end = std::min(content_.find_first_of("\r\n", position_), content_.size());
+  const std::string_view line = std::string_view(content_).substr(position_, end - position_);
+  const std::size_t length_of_words = is_obj ? std::min(line.find('#'), line.size()) : line.size();
+  const std::size_t end_of_words = position_ + length_of_words;
   bool is_continued = false;
-  while (position_ < content_.size() && !isLineEnd(content_[position_])) {
-    if (is_obj && content_[position_] == '#') in_comment = true;
-    if (in_comment || isBlank(content_[position_])) {
-      ++position_;
-      continue;
-    }
+  while (true) {
+    while (position_ < end_of_words && isBlank(content_[position_])) ++position_;
+    if (position_ == end_of_words) break;
     const std::size_t begin = position_;
-    while (position_ < content_.size() && !isLineEnd(content_[position_]) &&
-           !isBlank(content_[position_]) && !(is_obj && content_[position_] == '#')) {
-      ++position_;
-    }
-    std::size_t length = position_ - begin;
+    while (position_ < end_of_words && !isBlank(content_[position_])) ++position_;
     is_continued = is_obj && content_[position_ - 1] == '\\';
-    if (is_continued) --length;
+    const std::size_t length = position_ - begin - (is_continued ? 1 : 0);
     if (length > 0) words.push_back({&content_[begin], length});
   }
-  if (position_ < content_.size()) {
-    const bool is_pair = content_.compare(position_, 2, "\r\n") == 0;
-    position_ += is_pair ? 2 : 1;
-  }
+  const bool is_pair = content_.compare(end, 2, "\r\n") == 0;
+  position_ = std::min(end + (is_pair ? 2 : 1), content_.size());
   return is_continued ? LineEnd::kContinued : LineEnd::kPlain;
 }
 

@@ -69,7 +69,7 @@ VolumeMoments volumeMoments(const PolygonMesh& mesh) {
 
 double signedVolume(const PolygonMesh& mesh) {
   const FloatingPointEnvironment environment;
-  return momentsAbout(middleOfBoundingBox(mesh), mesh).zeroth;
+  return FloatingPointEnvironment::computed(momentsAbout(middleOfBoundingBox(mesh), mesh).zeroth);
 }
 
 }  // namespace hovercraft

@@ -44,8 +44,19 @@ std::vector<int> firstAtPosition(const std::vector<Vector3>& vertices) {
   return first;
 }
 
+/// The corners of a face, each replaced by `target`, without those that are like the one before.
+std::vector<int> replacedCorners(const std::vector<int>& face, const std::vector<int>& target) {
+  std::vector<int> corners;
+  corners.reserve(face.size());
+  for (const int v : face) {
+    const int replacement = target[static_cast<std::size_t>(v)];
+    if (corners.empty() || corners.back() != replacement) corners.push_back(replacement);
+  }
+  while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+  return corners;
+}
+
 /// The mesh with each vertex replaced by `target`.
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 PolygonMesh replaced(const PolygonMesh& mesh, const std::vector<int>& target) {
   constexpr int none = -1;
   PolygonMesh result;
@@ -53,13 +64,7 @@ PolygonMesh replaced(const PolygonMesh& mesh, const std::vector<int>& target) {
   result.faces.reserve(mesh.faces.size());
   std::vector<int> new_index(mesh.vertices.size(), none);
   for (const std::vector<int>& face : mesh.faces) {
-    std::vector<int> corners;
-    corners.reserve(face.size());
-    for (const int v : face) {
-      const int replacement = target[static_cast<std::size_t>(v)];
-      if (corners.empty() || corners.back() != replacement) corners.push_back(replacement);
-    }
-    while (corners.size() > 1 && corners.front() == corners.back()) corners.pop_back();
+    std::vector<int> corners = replacedCorners(face, target);
     if (corners.size() < 3) continue;
     for (int& v : corners) {
       int& index = new_index[static_cast<std::size_t>(v)];
@@ -83,7 +88,6 @@ class Neighbourhood {
       : vertices_(mesh.vertices), origin_(mesh.vertices.front()), reach_(reach) {}
 
   /// The first point within reach of vertex v, or v itself, which is then remembered.
-  // NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
   int firstNear(int v) {
     const Vector3& p = vertices_[static_cast<std::size_t>(v)];
     Cell cell{};
@@ -96,14 +100,10 @@ class Neighbourhood {
     }
     int first = v;
     for (unsigned n = 0; n < 8; ++n) {
-      const auto entry =
-          points_.find({(n & 1U) != 0 ? beside[0] : cell[0], (n & 2U) != 0 ? beside[1] : cell[1],
-                        (n & 4U) != 0 ? beside[2] : cell[2]});
-      if (entry == points_.end()) continue;
-      for (const int other : entry->second) {
-        const Vector3 apart = vertices_[static_cast<std::size_t>(other)] - p;
-        if (apart.cwiseAbs().maxCoeff() <= reach_) first = std::min(first, other);
-      }
+      first = std::min(
+          first, firstIn({(n & 1U) != 0 ? beside[0] : cell[0], (n & 2U) != 0 ? beside[1] : cell[1],
+                          (n & 4U) != 0 ? beside[2] : cell[2]},
+                         v));
     }
     if (first == v) points_[cell].push_back(v);
     return first;
@@ -112,6 +112,19 @@ class Neighbourhood {
  private:
   using Cell =
       std::array<std::int64_t, 3>;  // at most 1 / (2 kWeldDistance) from that of the origin
+
+  /// The first point of the cell within reach of vertex v, or v.
+  int firstIn(const Cell& cell, int v) const {
+    const auto entry = points_.find(cell);
+    if (entry == points_.end()) return v;
+    int first = v;
+    for (const int other : entry->second) {
+      const Vector3 apart =
+          vertices_[static_cast<std::size_t>(other)] - vertices_[static_cast<std::size_t>(v)];
+      if (apart.cwiseAbs().maxCoeff() <= reach_) first = std::min(first, other);
+    }
+    return first;
+  }
 
   const std::vector<Vector3>& vertices_;
   Vector3 origin_;

@@ -56,6 +56,7 @@ std::string requireBag(const std::string& verb) {
   const fs::path program =
       fs::path(ros::package::getPath("rosbag")) / "../../lib/rosbag" / arguments.front();
   std::vector<char*> words;
+  words.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
   execv(program.c_str(), words.data());

@@ -40,7 +40,8 @@ BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenar
     : file_(path),
       bag_(new rosbag::Bag),
       step_ns_(scenario.step_ns),
-      bodies_(bodyMessages(scenario, TfFrames())) {
+      bodies_(bodyMessages(scenario, TfFrames())),
+      sensors_(sensorMessages(scenario, TfFrames())) {
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     vehicles_.emplace_back(scenario, vehicle);
   }
@@ -97,6 +98,10 @@ void BagWriter::writeConstants(const hovercraft::Scenario& scenario) {
     const auto engines = messages.engineFrames(stamp);
     frames.transforms.insert(frames.transforms.end(), engines.begin(), engines.end());
   }
+  for (const SensorMessages& sensors : sensors_) {
+    const auto own = sensors.sensorFrames(stamp);
+    frames.transforms.insert(frames.transforms.end(), own.begin(), own.end());
+  }
   write("/tf_static", stamp, frames, true);
 }
 
@@ -114,14 +119,15 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
       write(topic(messages, kActuatorsTopic), stamp, messages.actuators());
     }
     write(topic(messages, kStateTopic), stamp, messages.state());
-    transforms_.transforms.push_back(messages.transform());
+    if (messages.hasCushion()) write(topic(messages, kCushionTopic), stamp, messages.cushion());
+    if (messages.hasTransform()) transforms_.transforms.push_back(messages.transform());
   }
   for (BodyMessages& messages : bodies_) {
     messages.fill(simulation, stamp);
     write("/" + messages.name() + "/" + kPoseTopic, stamp, messages.pose());
     transforms_.transforms.push_back(messages.transform());
   }
-  write("/tf", stamp, transforms_);
+  if (!transforms_.transforms.empty()) write("/tf", stamp, transforms_);
 }
 
 void BagWriter::applied(const hovercraft::Command& command) {
@@ -134,6 +140,23 @@ void BagWriter::applied(const hovercraft::Command& command) {
 void BagWriter::contact(const hovercraft::ContactEvent& event) {
   write(kContactsTopic, stampOfTick(event.tick),
         toMessage(event, epoch_ns_, episode_, kDefaultWorldFrame));
+}
+
+void BagWriter::sample(const hovercraft::SensorSample& sample) {
+  SensorMessages& craft = sensors_[sample.vehicle];
+  const SensorMessage& filled = craft.fill(sample, stampOfTick(sample.measured));
+  const ros::Time received = stampOfTick(sample.delivered);
+  const std::string space = "/" + craft.name() + "/";
+  std::visit([&](const auto& message) { write(space + filled.topic, received, message); },
+             filled.message);
+  if (!filled.velocity_topic.empty()) {
+    write(space + filled.velocity_topic, received, filled.velocity);
+  }
+  if (const auto transform = craft.transform(sample.sensor)) {
+    tf2_msgs::TFMessage message;
+    message.transforms.push_back(*transform);
+    write("/tf", received, message);
+  }
 }
 
 void BagWriter::event(const hovercraft_sim::RunEvent& event,

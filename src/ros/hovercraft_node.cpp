@@ -94,6 +94,7 @@ hovercraft::Tick HovercraftNode::nextVisibleTick() const {
   if (const auto scheduled = schedule_.next()) {  // published by the step that it acts in
     visible = std::min(visible, std::max(next, *scheduled + 1));
   }
+  visible = std::min(visible, std::max(next, simulation.nextSampleTick()));
   if (clock_) {
     const std::int64_t step_ns = config_.scenario.step_ns;
     const hovercraft::Tick wait = (clock_->untilDueNs(run_.stamp()) + step_ns - 1) / step_ns;
@@ -196,7 +197,9 @@ void HovercraftNode::gatherTransforms() {
   transforms_message_.transforms.clear();
   for (const auto& vehicle : vehicles_) {
     vehicle->refresh();
-    transforms_message_.transforms.push_back(vehicle->messages().transform());
+    if (vehicle->messages().hasTransform()) {
+      transforms_message_.transforms.push_back(vehicle->messages().transform());
+    }
   }
   for (BodyMessages& body : bodies_) {
     body.fill(run_.simulation(), run_.headerStamp());
@@ -208,7 +211,7 @@ void HovercraftNode::publishState() {
   gatherTransforms();
   for (const auto& vehicle : vehicles_) vehicle->publish();
   for (std::size_t i = 0; i < bodies_.size(); ++i) body_poses_[i].publish(bodies_[i].pose());
-  transforms_.publish(transforms_message_);
+  if (!transforms_message_.transforms.empty()) transforms_.publish(transforms_message_);
   if (clock_) clock_->publishIfDue(run_.headerStamp(), steadyNow(), false);
 }
 

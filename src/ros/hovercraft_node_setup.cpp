@@ -1,9 +1,11 @@
 #include <rosgraph_msgs/Clock.h>
 #include <utility>
 
+#include <nav_msgs/OccupancyGrid.h>
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/hovercraft_node.h"
+#include "hovercraft_sim/sim/occupancy.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 /// What a node advertises, and what it tells who subscribes; hovercraft_node.cpp has what it does.
@@ -59,12 +61,14 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
       contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.frames.world));
     };
   }
+  addSensors(handle);
   advertiseTransforms(handle);
   scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
   events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
   telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
   if (config_.clock) clock_.emplace(clockOn(handle, config_.clock_rate));
   publishConstants();
+  if (config_.map_height) publishMap(handle);
   graph_watch_.emplace(handle, claims());
   addReports(own);
   setRealTimeFactor(config_.real_time_factor);
@@ -77,9 +81,9 @@ void HovercraftNode::addVehicle(const ros::NodeHandle& handle, std::size_t vehic
   };
   // In lockstep the states are latched: a controller answers only those that are waited at.
   const auto stands = [this] { return !config_.lockstep && this->stands(); };
-  vehicles_.push_back(std::make_unique<VehicleInterface>(handle, run_, vehicle, config_.frames,
-                                                         VehicleInterface::Owner{take, stands},
-                                                         config_.lockstep));
+  vehicles_.push_back(std::make_unique<VehicleInterface>(
+      handle, run_, vehicle, config_.frames,
+      VehicleInterface::Owner{take, stands, config_.truth_odom}, config_.lockstep));
 }
 
 void HovercraftNode::addBody(const ros::NodeHandle& handle, std::size_t body) {
@@ -90,6 +94,17 @@ void HovercraftNode::addBody(const ros::NodeHandle& handle, std::size_t body) {
     return &bodies_[body].pose();
   };
   body_poses_.emplace_back(space, kPoseTopic, kBodyQueue, present);
+}
+
+void HovercraftNode::addSensors(const ros::NodeHandle& handle) {
+  if (run_.simulation().sensors() == nullptr) return;
+  // Where the truth has another name, a stack that listens to odom finds the noisy one.
+  const bool is_renamed = config_.truth_odom != kOdomTopic;
+  sensors_.emplace(handle, run_, config_.frames, is_renamed ? kOdomTopic : kOdometryTopic,
+                   config_.lockstep);
+  run_.simulation().on_sample = [this](const hovercraft::SensorSample& sample) {
+    sensors_->publish(sample);
+  };
 }
 
 void HovercraftNode::advertiseTransforms(ros::NodeHandle handle) {
@@ -120,16 +135,42 @@ Claims HovercraftNode::claims() const {
   claims.clock = config_.clock;
   for (const auto& vehicle : vehicles_) {
     for (const std::string& topic : vehicle->topics()) claims.topics.insert(topic);
-    claims.frames.insert(vehicle->messages().transform().child_frame_id);
+    if (vehicle->messages().tf() != hovercraft::TfSource::kNone) {
+      claims.frames.insert(vehicle->messages().transform().child_frame_id);
+    }
     for (const auto& frame : vehicle->messages().engineFrames(run_.stampOf(1))) {
       claims.frames.insert(frame.child_frame_id);
     }
+  }
+  if (sensors_) {
+    for (const std::string& topic : sensors_->topics()) claims.topics.insert(topic);
+    for (const auto& frame : sensors_->frames()) claims.frames.insert(frame.child_frame_id);
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     claims.topics.insert(body_poses_[i].topic());
     claims.frames.insert(bodies_[i].transform().child_frame_id);
   }
   return claims;
+}
+
+void HovercraftNode::publishMap(ros::NodeHandle handle) {
+  hovercraft::OccupancyRequest request;
+  request.height = *config_.map_height;
+  request.resolution = config_.map_resolution;
+  const hovercraft::OccupancyMap map = hovercraft::occupancyOf(config_.scenario, request);
+  nav_msgs::OccupancyGrid grid;
+  grid.header.frame_id = config_.frames.world;
+  grid.header.stamp = run_.stampOf(1);
+  grid.info.map_load_time = grid.header.stamp;
+  grid.info.resolution = static_cast<float>(map.resolution);
+  grid.info.width = static_cast<std::uint32_t>(map.width);
+  grid.info.height = static_cast<std::uint32_t>(map.height);
+  grid.info.origin.position.x = map.origin_x;
+  grid.info.origin.position.y = map.origin_y;
+  grid.info.origin.orientation.w = 1.0;
+  grid.data = map.cells;
+  map_ = handle.advertise<nav_msgs::OccupancyGrid>("map", 1, true);
+  map_.publish(grid);
 }
 
 void HovercraftNode::publishConstants() {
@@ -140,6 +181,10 @@ void HovercraftNode::publishConstants() {
   for (const auto& vehicle : vehicles_) {
     const auto engines = vehicle->messages().engineFrames(run_.stampOf(1));
     frames.insert(frames.end(), engines.begin(), engines.end());
+  }
+  if (sensors_) {
+    const auto sensor_frames = sensors_->frames();
+    frames.insert(frames.end(), sensor_frames.begin(), sensor_frames.end());
   }
   static_transforms_.sendTransform(frames);
 }

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/live_run.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "hovercraft_sim/ros/run_events.h"
@@ -14,6 +15,13 @@ LiveRun::LiveRun(hovercraft::Scenario scenario, std::int64_t epoch_ns)
 ros::Time LiveRun::stampOf(hovercraft::Tick tick) const {
   ros::Time stamp;
   stamp.fromNSec(static_cast<std::uint64_t>(epoch_ns_ + tick * simulation_.scenario().step_ns));
+  return stamp;
+}
+
+ros::Time LiveRun::sampleStamp(hovercraft::Tick tick) const {
+  const std::int64_t time_ns = epoch_ns_ + tick * simulation_.scenario().step_ns;
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(time_ns, 1)));
   return stamp;
 }
 

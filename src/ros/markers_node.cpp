@@ -5,6 +5,7 @@
 
 #include <ros/console.h>
 
+#include "hovercraft_sim/ros/cushion_markers.h"
 #include "hovercraft_sim/ros/vehicle_markers.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
@@ -65,17 +66,26 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
       own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kDisplayQueue, on_pose),
       own.subscribe<hovercraft_sim::State>(kStateTopic, kDisplayQueue, on_state),
       own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kDisplayQueue, on_engines)};
+  if (!description.cushion) return;
+  const boost::function<void(const hovercraft_sim::Cushion&)> on_cushion =
+      [craft](const hovercraft_sim::Cushion& cushion) { craft->cushion = cushion; };
+  craft->subscribers.push_back(
+      own.subscribe<hovercraft_sim::Cushion>(kCushionTopic, kDisplayQueue, on_cushion));
 }
 
-/// What has the same marker at all times: obstacles, and the hulls of loose bodies, which tf moves.
+/// What has the same marker at all times: ground, obstacles, and the hulls of loose bodies, which
+/// tf moves.
 void MarkersNode::makeStill(const std::string& world_frame, const std::string& prefix) {
   still_.clear();
   still_prefix_ = prefix;
+  append(still_, groundMarkers(scenario_, world_frame));
   if (!scenario_.world) return;
+  std::vector<visualization_msgs::Marker> loose;
   for (const hovercraft::VehicleScenario& body : scenario_.world->bodies) {
-    still_.push_back(bodyMarker(body));
+    loose.push_back(bodyMarker(body));
   }
-  addPrefix(prefix, still_);
+  addPrefix(prefix, loose);
+  append(still_, loose);
   append(still_, obstacleMarkers(scenario_, world_frame));
 }
 
@@ -88,6 +98,7 @@ void MarkersNode::publish() {
     if (still_.empty() || still_prefix_ != prefix) makeStill(craft->world_frame, prefix);
     std::vector<visualization_msgs::Marker> fixed = craftMarkers(craft->description);
     append(fixed, thrustMarkers(craft->description, craft->engines));
+    append(fixed, cushionMarkers(craft->description, craft->cushion));
     addPrefix(prefix, fixed);
     append(array.markers, fixed);
     array.markers.push_back(

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include <ros/console.h>
@@ -13,35 +14,21 @@
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/step_time.h"
 
 namespace hovercraft_ros {
 namespace {
 
-// Relative distance from a whole number of steps that a rate may have: rates are typed with few
-// digits.
-constexpr double kRateSlack = 1e-9;
 constexpr double kDefaultPublishRate = 100.0;  // Hz
-
-// Beyond it a count of steps is no exact double; such a period is a slip.
-constexpr double kMostStepsOfPeriod = 1e15;
-
-/// How many steps a period is; none if these are not a whole number.
-std::optional<hovercraft::Tick> wholeSteps(double steps) {
-  if (!(steps <= kMostStepsOfPeriod)) return std::nullopt;
-  const hovercraft::Tick whole = std::llround(steps);
-  if (whole < 1 || std::abs(steps - static_cast<double>(whole)) > kRateSlack * steps) {
-    return std::nullopt;
-  }
-  return whole;
-}
 
 hovercraft::Tick publishPeriod(const hovercraft::ConfigReader& reader, double step_size) {
   if (!reader.has("publish_rate")) {
     return std::max<hovercraft::Tick>(1, std::llround(1.0 / (kDefaultPublishRate * step_size)));
   }
   const double rate = reader.number("publish_rate", hovercraft::kPositive);
-  const auto steps = wholeSteps(1.0 / (rate * step_size));
+  const auto steps = hovercraft::wholeSteps(1.0 / (rate * step_size));
   if (!steps) {
     reader.fail("publish_rate",
                 fmt::format("must divide the step rate of {:.9g} Hz", 1.0 / step_size));
@@ -137,7 +124,8 @@ void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
   config.control_period = config.publish_every;
   if (!reader.has("control_period")) return;
   const double step_size = config.scenario.stepSize();
-  const auto steps = wholeSteps(reader.number("control_period", hovercraft::kPositive) / step_size);
+  const auto steps =
+      hovercraft::wholeSteps(reader.number("control_period", hovercraft::kPositive) / step_size);
   if (!steps) {
     reader.fail("control_period",
                 fmt::format("must be a whole number of steps of {:.9g} s", step_size));
@@ -146,6 +134,28 @@ void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
     reader.fail("control_period", "has a meaning in lockstep only: set lockstep or leave it out");
   }
   config.control_period = *steps;
+}
+
+void readMap(const hovercraft::ConfigReader& reader, NodeConfig& config) {
+  config.map_resolution =
+      reader.numberOr(config.map_resolution, "map_resolution", hovercraft::kPositive);
+  if (reader.has("map_height")) {
+    config.map_height = reader.number("map_height", hovercraft::kCoordinate);
+  } else if (reader.has("map_resolution")) {
+    reader.fail("map_resolution", "has a meaning with map_height only");
+  }
+}
+
+/// A topic below the namespace of each craft.
+std::string readTruthOdom(const hovercraft::ConfigReader& reader, const std::string& fallback) {
+  if (!reader.has("truth_odom")) return fallback;
+  const std::string topic = reader.text("truth_odom");
+  std::string part;
+  for (std::istringstream parts(topic + "/"); std::getline(parts, part, '/');) {
+    if (hovercraft::isGraphName(part)) continue;
+    reader.fail("truth_odom", "must be a topic below the craft's namespace, such as truth/odom");
+  }
+  return topic;
 }
 
 TfFrames readFrames(const hovercraft::ConfigReader& reader) {
@@ -173,12 +183,15 @@ NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::
   const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::ConfigReader reader(parameters, node_name);
   reader.allowOnly({"scenario", "scenario_dir", "scenario_file", "set", "publish_rate",
-                    "world_frame", "tf_prefix", "real_time_factor", "paused", "clock", "clock_rate",
-                    "lockstep", "control_period", "lockstep_timeout", "diagnostic_period"});
+                    "world_frame", "tf_prefix", "truth_odom", "map_height", "map_resolution",
+                    "real_time_factor", "paused", "clock", "clock_rate", "lockstep",
+                    "control_period", "lockstep_timeout", "diagnostic_period"});
   NodeConfig config;
   config.scenario = readScenario(reader, parameters);
   config.publish_every = publishPeriod(reader, config.scenario.stepSize());
   config.frames = readFrames(reader);
+  config.truth_odom = readTruthOdom(reader, config.truth_odom);
+  readMap(reader, config);
   config.real_time_factor = reader.numberOr(config.real_time_factor, "real_time_factor",
                                             {isRealTimeFactor, kRealTimeFactorRuleText});
   config.paused = switchOr(config.paused, reader, "paused");

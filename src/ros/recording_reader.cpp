@@ -109,9 +109,11 @@ class Reader {
     if (recording_.states.empty()) {
       throw std::invalid_argument(path_ + ": there is no state (hovercraft_sim/State) in it");
     }
+    recording_.samples = readSamples(path_, bag_, recording_.scenario);
     sort();
     forgetWhereItStood();
     findGaps();
+    recording_.epochs_ns = epochs_ns_;
     return std::move(recording_);
   }
 

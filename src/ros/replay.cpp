@@ -102,10 +102,12 @@ class Replayer {
       : recording_(recording),
         is_changed_(hovercraft::toYaml(scenario) != hovercraft::toYaml(recording.scenario)),
         simulation_(scenario),
-        observer_(observer) {
+        observer_(observer),
+        samples_(recording.samples, scenario) {
     for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) messages_.emplace_back(scenario, i);
     simulation_.on_applied = observer.on_applied;
     simulation_.on_contact = observer.on_contact;
+    simulation_.on_sample = [this](const hovercraft::SensorSample& sample) { take(sample); };
   }
 
   ReplayResult run(bool compares) {
@@ -117,7 +119,7 @@ class Replayer {
       advanceTo(recorded.time);
       applyEventsOfThisTick(recorded.state.events);  // of a run that stood, states come after them
       tellObserver(recorded.time);
-      if (compares) {
+      if (compares && !noteSampleDifference(samples_.difference())) {
         messages_[recorded.vehicle].fill(simulation_, {recorded.state.header.stamp, episode_});
         result_.difference = difference(recorded, messages_[recorded.vehicle].state(),
                                         messages_[recorded.vehicle].name());
@@ -125,11 +127,55 @@ class Replayer {
       }
       if (result_.difference) break;
     }
+    if (compares && !result_.difference) noteMissingSamples();
+    result_.compared_samples = samples_.compared();
     result_.hash = simulation_.hash();
     return result_;
   }
 
  private:
+  /// Its stamp is that of the recording's episode.
+  void take(const hovercraft::SensorSample& sample) {
+    if (observer_.on_sample) observer_.on_sample(sample);
+    const auto epoch = recording_.epochs_ns.find(episode_);
+    if (epoch == recording_.epochs_ns.end()) return;
+    const std::int64_t step_ns = simulation_.scenario().step_ns;
+    const std::int64_t stamp_ns = epoch->second + sample.measured * step_ns;
+    samples_.add(sample, static_cast<std::uint64_t>(std::max<std::int64_t>(stamp_ns, 1)));
+  }
+
+  bool noteSampleDifference(const std::optional<SampleComparison::Difference>& found) {
+    if (!found) return false;
+    const std::int64_t epoch_ns = recording_.epochs_ns.at(episode_);
+    const std::int64_t step_ns = simulation_.scenario().step_ns;
+    const hovercraft::Tick tick = (static_cast<std::int64_t>(found->stamp_ns) - epoch_ns) / step_ns;
+    result_.difference = ReplayDifference{
+        {episode_, tick}, found->vehicle, found->topic, found->recorded, found->replayed};
+    return true;
+  }
+
+  /// Of a recording without gaps: a sample that was recorded must have come again.
+  void noteMissingSamples() {
+    if (recording_.states.empty() || result_.unknown_states > 0) return;
+    const auto& states = recording_.states;
+    const auto epoch = recording_.epochs_ns.find(states.front().time.episode);
+    if (epoch == recording_.epochs_ns.end()) return;
+    const auto begin_ns = static_cast<std::uint64_t>(std::max<std::int64_t>(epoch->second, 0));
+    // What was measured by then may have come later, after the last state.
+    const auto end_ns =
+        static_cast<std::int64_t>(states.back().state.header.stamp.toNSec()) - longestLatencyNs();
+    if (end_ns <= 0) return;
+    noteSampleDifference(samples_.missing(begin_ns, static_cast<std::uint64_t>(end_ns)));
+  }
+
+  std::int64_t longestLatencyNs() const {
+    std::int64_t longest = 0;
+    for (const auto& vehicle : simulation_.scenario().vehicles) {
+      for (const auto& sensor : vehicle.sensors) longest = std::max(longest, sensor.latency_ns);
+    }
+    return longest;
+  }
+
   bool beginsEpisode(const RunEvent& event) const {
     return event.kind == RunEvent::RESET || event.kind == RunEvent::LOAD;
   }
@@ -227,6 +273,7 @@ class Replayer {
   bool is_changed_;  // the scenario is not that of the recording
   hovercraft::Simulation simulation_;
   const ReplayObserver& observer_;
+  SampleComparison samples_;
   std::vector<VehicleMessages> messages_;
   std::uint32_t episode_ = 0;
   std::size_t command_ = 0;
@@ -241,9 +288,13 @@ std::string verdictOf(const ReplayResult& result, const Recording& recording) {
       recording.missing_states == 0
           ? ""
           : fmt::format("; {} states were not recorded", recording.missing_states);
+  const std::string samples =
+      result.compared_samples == 0
+          ? ""
+          : fmt::format(" and {} messages of sensors", result.compared_samples);
   const std::string scope =
-      fmt::format("{} ticks, {} states compared, hash {:016x}{}", result.simulated_ticks,
-                  result.compared_states, result.hash, missing_states);
+      fmt::format("{} ticks, {} states{} compared, hash {:016x}{}", result.simulated_ticks,
+                  result.compared_states, samples, result.hash, missing_states);
   if (result.difference) {
     const ReplayDifference& found = *result.difference;
     return fmt::format("different: episode {}, tick {}, {}: {} = {} recorded, {} replayed",
@@ -285,6 +336,9 @@ int replayBag(const ReplayRequest& request, std::string& verdict) {
     observer.on_state = [&writer](const hovercraft::Simulation& state) { writer->state(state); };
     observer.on_contact = [&writer](const hovercraft::ContactEvent& contact) {
       writer->contact(contact);
+    };
+    observer.on_sample = [&writer](const hovercraft::SensorSample& sample) {
+      writer->sample(sample);
     };
     observer.on_applied = [&writer](const hovercraft::Command& command) {
       writer->applied(command);

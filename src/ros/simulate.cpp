@@ -19,9 +19,11 @@
 #include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/sim/commands_csv.h"
 #include "hovercraft_sim/sim/contacts_csv.h"
+#include "hovercraft_sim/sim/cushion_csv.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/sensors_csv.h"
 #include "hovercraft_sim/sim/states_csv.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -71,7 +73,9 @@ void checkRequest(const SimulateRequest& request) {
   if (request.commands.empty() && request.duration.empty()) {
     throw std::invalid_argument("--duration is missing: without --commands it must be given");
   }
-  hovercraft::checkOutputs({{"--output", request.output}, {"--contacts", request.contacts}},
+  hovercraft::checkOutputs({{"--output", request.output},
+                            {"--contacts", request.contacts},
+                            {"--cushion", request.cushion}},
                            {request.scenario, request.commands});
 }
 
@@ -88,6 +92,9 @@ class TimedSink : public hovercraft::StateSink {
   }
   void contact(const hovercraft::ContactEvent& event) override {
     timed([&] { next_->contact(event); });
+  }
+  void sample(const hovercraft::SensorSample& sample) override {
+    timed([&] { next_->sample(sample); });
   }
   void close() override {
     timed([&] { next_->close(); });
@@ -184,6 +191,17 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
   std::unique_ptr<hovercraft::StateSink> output = openOutput(request.output, scenario);
   if (!request.contacts.empty()) {
     output = std::make_unique<hovercraft::ContactsCsvWriter>(request.contacts, std::move(output));
+  }
+  if (!request.cushion.empty()) {
+    output = std::make_unique<hovercraft::CushionCsvWriter>(request.cushion, scenario,
+                                                            std::move(output));
+  }
+  if (!request.sensors.empty()) {
+    output = std::make_unique<hovercraft::SensorsCsvWriter>(
+        request.sensors, scenario,
+        std::vector<std::string>{request.scenario, request.commands, request.output,
+                                 request.contacts, request.cushion},
+        std::move(output));
   }
   hovercraft::Simulation simulation(scenario);
 

@@ -43,9 +43,12 @@ VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun&
   ros::NodeHandle own(handle, messages_.name());
   pose_ = advertise(own, kPoseTopic, &VehicleMessages::pose, latched);
   twist_ = advertise(own, kTwistTopic, &VehicleMessages::twist, latched);
-  odom_ = advertise(own, kOdomTopic, &VehicleMessages::odom, latched);
+  odom_ = advertise(own, owner_.truth_odom.c_str(), &VehicleMessages::odom, latched);
   engines_ = advertise(own, kEnginesTopic, &VehicleMessages::engines, latched);
   state_ = advertise(own, kStateTopic, &VehicleMessages::state, latched);
+  if (messages_.hasCushion()) {
+    cushion_ = advertise(own, kCushionTopic, &VehicleMessages::cushion, latched);
+  }
   commands_ = own.advertise<hovercraft_sim::AppliedCommand>(kCommandsTopic, kCommandQueue);
   if (messages_.hasActuators()) {
     actuators_ = advertise(own, kActuatorsTopic, &VehicleMessages::actuators, latched);
@@ -146,10 +149,11 @@ void VehicleInterface::noteSaturation(const hovercraft::Command& command,
 }
 
 std::vector<std::string> VehicleInterface::topics() const {
-  std::vector<std::string> topics = {pose_.topic(),    twist_.topic(), odom_.topic(),
-                                     engines_.topic(), state_.topic(), commands_.getTopic()};
-  if (messages_.hasActuators()) topics.push_back(actuators_.topic());
-  return topics;
+  std::vector<std::string> names = {pose_.topic(),    twist_.topic(), odom_.topic(),
+                                    engines_.topic(), state_.topic(), commands_.getTopic()};
+  if (messages_.hasActuators()) names.push_back(actuators_.topic());
+  if (messages_.hasCushion()) names.push_back(cushion_.topic());
+  return names;
 }
 
 void VehicleInterface::publish() {
@@ -159,6 +163,7 @@ void VehicleInterface::publish() {
   engines_.publish(messages_.engines());
   if (messages_.hasActuators()) actuators_.publish(messages_.actuators());
   state_.publish(messages_.state());
+  if (messages_.hasCushion()) cushion_.publish(messages_.cushion());
 }
 
 void VehicleInterface::publishApplied(const hovercraft::Command& command) {

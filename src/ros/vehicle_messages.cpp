@@ -26,12 +26,13 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
   transform_.header.frame_id = frames_.world;
   transform_.child_frame_id = base_frame;
   engines_.header.frame_id = base_frame;
+  cushion_.header.frame_id = base_frame;
   actuators_.header.frame_id = base_frame;
   for (const hovercraft::ActuatorScenario& actuator : description_.actuators) {
     hovercraft_sim::ActuatorStatus status;
     status.name = actuator.name;
     status.id = static_cast<std::uint8_t>(hovercraft::kFirstActuator + actuators_.actuators.size());
-    status.kind = hovercraft::kActuatorKindNames[static_cast<std::size_t>(actuator.kind)];
+    status.kind = hovercraft::actuatorKindNames()[static_cast<std::size_t>(actuator.kind)];
     status.efficiency = 1.0;
     actuators_.actuators.push_back(status);
   }
@@ -41,7 +42,8 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
 
 void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
   for (std_msgs::Header* header : {&pose_.header, &twist_.header, &odom_.header, &transform_.header,
-                                   &engines_.header, &actuators_.header, &state_.header}) {
+                                   &engines_.header, &actuators_.header, &state_.header,
+                                   &cushion_.header}) {
     header->stamp = place.stamp;
   }
   const hovercraft::Motion motion = simulation.motion(vehicle_);
@@ -74,6 +76,22 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   state_.commands = commands_;
   state_.events = place.events;
   state_.hash = simulation.hash(vehicle_);
+  state_.sensor_hash = simulation.sensorHash(vehicle_);
+  if (hasCushion()) fillCushion(simulation);
+}
+
+void VehicleMessages::fillCushion(const hovercraft::Simulation& simulation) {
+  simulation.cushionReport(vehicle_, cushion_report_);
+  cushion_.cells.resize(cushion_report_.cells.size());
+  for (std::size_t i = 0; i < cushion_.cells.size(); ++i) {
+    const hovercraft::CellReport& cell = cushion_report_.cells[i];
+    cushion_.cells[i].pressure = cell.pressure;
+    cushion_.cells[i].gap = cell.gap;
+    cushion_.cells[i].flow = cell.flow;
+    cushion_.cells[i].force = cell.force;
+  }
+  cushion_.fan_speed = cushion_report_.fan_speeds;
+  cushion_.power = cushion_report_.power;
 }
 
 void VehicleMessages::fillActuators(const hovercraft::Simulation& simulation) {

@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/scenario_names.h"
+#include "hovercraft_sim/sim/step_time.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
@@ -28,7 +29,7 @@ Vector3 unitVector(const ConfigReader& reader, const char* key, const Vector3& v
 
 void parseMotion(const ConfigReader& reader, double default_timeout, EngineParameters& motion) {
   motion.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
-  motion.timeout_ns = wholeNanoseconds(reader, "timeout",
+  motion.timeout_ns = nanosecondsOf(reader, "timeout",
                                        reader.numberOr(default_timeout, "timeout", kNotNegative));
 }
 
@@ -106,7 +107,7 @@ ActuatorScenario parseActuator(const std::string& name, const ConfigReader& read
   ActuatorScenario actuator;
   actuator.name = name;
   reader.text("kind");  // it must be there
-  actuator.kind = static_cast<ActuatorKind>(reader.choiceOr(0, "kind", kActuatorKindNames));
+  actuator.kind = static_cast<ActuatorKind>(reader.choiceOr(0, "kind", actuatorKindNames()));
   switch (actuator.kind) {
     case ActuatorKind::kFan:
       parseFan(reader, actuator);
@@ -193,19 +194,6 @@ std::string kindYaml(const ActuatorScenario& actuator) {
 
 }  // namespace
 
-std::int64_t wholeNanoseconds(const ConfigReader& reader, const char* key, double seconds) {
-  const double exact = seconds * static_cast<double>(kNanosecondsPerSecond);
-  if (!(exact <= kMaxNanoseconds)) {
-    reader.fail(key,
-                fmt::format("must be at most {:.0f} s", kMaxNanoseconds / kNanosecondsPerSecond));
-  }
-  const std::int64_t whole = std::llround(exact);
-  if (std::abs(exact - static_cast<double>(whole)) > kNanosecondSlack * std::abs(exact)) {
-    reader.fail(key, "must be a whole number of nanoseconds");
-  }
-  return whole;
-}
-
 void parseEngines(const ConfigReader& craft, VehicleScenario& vehicle) {
   vehicle.has_engine = {false, false, false};
   if (!craft.has("engines") && craft.has("actuators")) return;
@@ -246,7 +234,7 @@ std::string actuatorsYaml(const VehicleScenario& vehicle) {
   std::string yaml = "    actuators:\n";
   for (const ActuatorScenario& actuator : vehicle.actuators) {
     yaml += fmt::format("      {}: {{kind: {}, position: {}, {}{}", yamlText(actuator.name),
-                        kActuatorKindNames[static_cast<std::size_t>(actuator.kind)],
+                        actuatorKindNames()[static_cast<std::size_t>(actuator.kind)],
                         yamlVector(actuator.motion.p_HE), kindYaml(actuator), motionYaml(actuator));
   }
   return yaml;

@@ -77,6 +77,10 @@ std::string ConfigReader::pathOf(const std::string& key) const {
 }
 
 void ConfigReader::allowOnly(std::initializer_list<const char*> keys) const {
+  allowOnly(std::vector<std::string>(keys.begin(), keys.end()));
+}
+
+void ConfigReader::allowOnly(const std::vector<std::string>& keys) const {
   for (const auto& [key, value] : node_.members()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     fail(quotes_ ? key : "", fmt::format("unknown key; known here: {}", fmt::join(keys, ", ")));
@@ -173,6 +177,18 @@ Vector3 ConfigReader::vector(const char* key, const NumberRule& rule) const {
   for (int i = 0; i < 3; ++i) {
     result[i] = numberAt(list.items()[static_cast<std::size_t>(i)], key, rule);
   }
+  return result;
+}
+
+std::vector<double> ConfigReader::numbers(const char* key, std::size_t most) const {
+  const ConfigNode& list = required(key);
+  if (list.isMap() || list.isText()) fail(key, "must be a list of numbers");
+  if (list.items().size() > most) {
+    fail(key, fmt::format("must be a list of at most {} numbers", most));
+  }
+  std::vector<double> result;
+  result.reserve(list.items().size());
+  for (const ConfigNode& item : list.items()) result.push_back(numberAt(item, key, kAnyNumber));
   return result;
 }
 

@@ -34,18 +34,6 @@ std::string resolvedPath(const ConfigReader& reader, const char* key,
   return (std::filesystem::path(source.directory) / file).lexically_normal().string();
 }
 
-std::string meshPath(const ConfigReader& reader, const ScenarioSource& source) {
-  const std::string file = reader.text("file");
-  const std::string scheme = "package://";
-  if (file.rfind(scheme, 0) != 0) return resolvedPath(reader, "file", source);
-  const std::size_t slash = file.find('/', scheme.size());
-  if (slash == std::string::npos) reader.fail("file", "must be package://PACKAGE/PATH");
-  const std::string package = file.substr(scheme.size(), slash - scheme.size());
-  const std::string folder = source.package_folder ? source.package_folder(package) : "";
-  if (folder.empty()) reader.fail("file", fmt::format("there is no ROS package {}", package));
-  return folder + file.substr(slash);
-}
-
 Vector3 scaleOf(const ConfigReader& reader) {
   return reader.has("scale") ? reader.numberOrVector("scale", kPositive) : Vector3::Ones();
 }
@@ -64,9 +52,21 @@ std::string resourceOf(const ConfigReader& reader, const char* key, const Scenar
 
 }  // namespace
 
+std::string filePath(const ConfigReader& reader, const ScenarioSource& source) {
+  const std::string file = reader.text("file");
+  const std::string scheme = "package://";
+  if (file.rfind(scheme, 0) != 0) return resolvedPath(reader, "file", source);
+  const std::size_t slash = file.find('/', scheme.size());
+  if (slash == std::string::npos) reader.fail("file", "must be package://PACKAGE/PATH");
+  const std::string package = file.substr(scheme.size(), slash - scheme.size());
+  const std::string folder = source.package_folder ? source.package_folder(package) : "";
+  if (folder.empty()) reader.fail("file", fmt::format("there is no ROS package {}", package));
+  return folder + file.substr(slash);
+}
+
 MeshShape parseMesh(const ConfigReader& reader, const ScenarioSource& source) {
   reader.allowOnly({"file", "scale"});
-  return {meshPath(reader, source), scaleOf(reader)};
+  return {filePath(reader, source), scaleOf(reader)};
 }
 
 PolygonMesh loadedBody(const ConfigReader& reader, const MeshShape& shape,

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/sim/output_file.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -185,9 +186,23 @@ bool clash(const std::string& a, const std::string& b) {
   return isSameFile(a, b) || isSameFile(a + ".partial", b) || isSameFile(a, b + ".partial");
 }
 
+/// What is wrong with an output by itself or beside what is read, or nothing.
+std::string objectionTo(const std::string& path, const std::vector<std::string>& inputs) {
+  if (path.empty() || path == "-") return "";
+  const auto is_output = [&path](const std::string& input) {
+    return !input.empty() && isSameFile(path, input);
+  };
+  if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
+    return "must not be a file that is read";
+  }
+  const std::string objection = objectionTo(path);
+  if (!objection.empty()) return objection;
+  return isStandardStream(path) ? "must not be where the standard output or the standard error goes"
+                                : "";
+}
+
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void checkOutputs(const std::vector<OutputOption>& outputs,
                   const std::vector<std::string>& inputs) {
   for (const OutputOption& output : outputs) {
@@ -198,15 +213,8 @@ void checkOutputs(const std::vector<OutputOption>& outputs,
       if (&other == &output) break;
       if (clash(output.path, other.path)) fail("must not be what " + other.option + " writes");
     }
-    if (output.path.empty() || output.path == "-") continue;
-    for (const std::string& input : inputs) {
-      if (!input.empty() && isSameFile(output.path, input)) fail("must not be a file that is read");
-    }
-    const std::string objection = objectionTo(output.path);
+    const std::string objection = objectionTo(output.path, inputs);
     if (!objection.empty()) fail(objection);
-    if (isStandardStream(output.path)) {
-      fail("must not be where the standard output or the standard error goes");
-    }
   }
 }
 

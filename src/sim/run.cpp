@@ -67,6 +67,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
   TimeoutWatch watch(simulation);
   simulation.on_applied = [&sink](const Command& command) { sink.applied(command); };
   simulation.on_contact = [&sink](const ContactEvent& event) { sink.contact(event); };
+  simulation.on_sample = [&sink](const SensorSample& sample) { sink.sample(sample); };
   std::optional<Command> waiting = commands.next();
   Tick next_output = simulation.tick();
   while (true) {
@@ -83,6 +84,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
   }
   simulation.on_applied = nullptr;
   simulation.on_contact = nullptr;
+  simulation.on_sample = nullptr;
   sink.close();
   return {watch.found(), simulation.hash()};
 }

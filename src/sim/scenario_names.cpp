@@ -13,11 +13,41 @@ bool isLetter(char c) {
 
 }  // namespace
 
-const std::vector<std::string> kIntegratorNames = {"euler", "semi_implicit_euler", "heun", "rk4"};
-const std::vector<std::string> kOrientationNames = {"quaternion", "matrix"};
-const std::vector<std::string> kModelNames = {"planar", "spatial"};
-const std::vector<std::string> kActuatorKindNames = {"fan", "propeller", "lift_fan", "rudder"};
-const std::vector<std::string> kFrameNames = {"world", "body"};
+const std::vector<std::string>& integratorNames() {
+  static const std::vector<std::string> names = {"euler", "semi_implicit_euler", "heun", "rk4"};
+  return names;
+}
+
+const std::vector<std::string>& orientationNames() {
+  static const std::vector<std::string> names = {"quaternion", "matrix"};
+  return names;
+}
+
+const std::vector<std::string>& modelNames() {
+  static const std::vector<std::string> names = {"planar", "spatial"};
+  return names;
+}
+
+const std::vector<std::string>& actuatorKindNames() {
+  static const std::vector<std::string> names = {"fan", "propeller", "lift_fan", "rudder"};
+  return names;
+}
+
+const std::vector<std::string>& tfSourceNames() {
+  static const std::vector<std::string> names = {"truth", "odometry", "none"};
+  return names;
+}
+
+const std::vector<std::string>& sensorKindNames() {
+  static const std::vector<std::string> names = {"imu", "gnss", "odometry", "magnetometer",
+                                                 "laser"};
+  return names;
+}
+
+const std::vector<std::string>& frameNames() {
+  static const std::vector<std::string> names = {"world", "body"};
+  return names;
+}
 
 bool isGraphName(const std::string& name) {
   return !name.empty() && isLetter(name.front()) &&

@@ -12,9 +12,13 @@
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/actuator_parser.h"
 #include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/sim/cushion_parser.h"
+#include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
+#include "hovercraft_sim/sim/sensor_parser.h"
+#include "hovercraft_sim/sim/step_time.h"
 #include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
@@ -185,10 +189,11 @@ namespace {
 VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader,
                              const ScenarioSource& source, BodyModel model) {
   reader.allowOnly({"mass", "inertia", "center_of_mass", "parts", "engines", "actuators", "drag",
-                    "hull", "material", "visual", "initial"});
+                    "hull", "material", "visual", "initial", "cushion", "sensors", "tf"});
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   parseEngines(reader, vehicle);
   if (reader.has("actuators")) vehicle.actuators = parseActuators(reader.map("actuators"));
+  vehicle.cushion = parseCushion(reader);
   return vehicle;
 }
 
@@ -207,16 +212,16 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
   reader.allowOnly({"physics_version", "step_size", "integrator", "orientation", "model", "gravity",
-                    "wind", "seed", "vehicles", "world"});
+                    "wind", "seed", "vehicles", "world", "ground"});
   Scenario scenario;
   checkPhysicsVersion(reader);
-  scenario.step_ns = wholeNanoseconds(reader, "step_size", reader.number("step_size", kPositive));
+  scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.integrator), "integrator", kIntegratorNames));
+      static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));
   scenario.orientation = static_cast<OrientationKind>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.orientation), "orientation", kOrientationNames));
+      static_cast<std::size_t>(scenario.orientation), "orientation", orientationNames()));
   scenario.model = static_cast<BodyModel>(
-      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", kModelNames));
+      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", modelNames()));
   scenario.gravity = reader.vectorOr(Vector3::Zero(), "gravity");
   scenario.wind = reader.vectorOr(Vector3::Zero(), "wind");
   scenario.seed = reader.wholeNumberOr(scenario.seed, "seed");
@@ -224,7 +229,10 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
     scenario.vehicles.push_back(parseVehicle(name, vehicle, source, scenario.model));
   }
   if (scenario.vehicles.empty()) reader.fail("vehicles", "must name at least one vehicle");
+  scenario.ground = parseGround(reader, source);
   parseWorld(reader, source, scenario);
+  checkCushions(reader, source, scenario);
+  parseSensors(reader, scenario);
   return scenario;
 }
 

@@ -7,10 +7,13 @@
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/actuator_parser.h"
+#include "hovercraft_sim/sim/cushion_parser.h"
+#include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/sensor_parser.h"
 #include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/world_parser.h"
 
@@ -80,8 +83,9 @@ std::string engineText(const VehicleScenario& vehicle) {
 std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario,
                         bool has_engines) {
   std::string yaml = fmt::format("  {}:\n{}", yamlText(vehicle.name), massText(vehicle));
-  if (has_engines) yaml += engineText(vehicle) + actuatorsYaml(vehicle);
+  if (has_engines) yaml += engineText(vehicle) + actuatorsYaml(vehicle) + sensorsYaml(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
+  yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";
   yaml += fmt::format(
       "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}}}\n",
@@ -102,13 +106,14 @@ std::string toYaml(const Scenario& scenario) {
       "physics_version: {}\nstep_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\n"
       "gravity: {}\nwind: {}\nseed: {}\nvehicles:\n",
       kPhysicsVersion, yamlNumber(scenario.stepSize()),
-      kIntegratorNames[static_cast<std::size_t>(scenario.integrator)],
-      kOrientationNames[static_cast<std::size_t>(scenario.orientation)],
-      kModelNames[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),
+      integratorNames()[static_cast<std::size_t>(scenario.integrator)],
+      orientationNames()[static_cast<std::size_t>(scenario.orientation)],
+      modelNames()[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),
       yamlVector(scenario.wind), scenario.seed);
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     yaml += vehicleText(vehicle, scenario, true);
   }
+  yaml += groundYaml(scenario);
   yaml += worldYaml(scenario);
   if (!scenario.world || scenario.world->bodies.empty()) return yaml;
   yaml += "  bodies:\n";

@@ -9,6 +9,8 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/cushion_builder.h"
+#include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -45,13 +47,20 @@ bool settle(RigidBodyState<Orientation>& body) {
 }  // namespace
 
 Simulation::Simulation(Scenario scenario)
-    : scenario_(std::move(scenario)), world_(worldOf(scenario_)) {
+    : scenario_(std::move(scenario)),
+      world_(worldOf(scenario_)),
+      ground_(groundOf(scenario_)),
+      bare_ground_(bareGroundOf(scenario_)) {
   const FloatingPointEnvironment environment;
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     engine_dynamics_.emplace_back(parametersOf(vehicle), scenario_.step_ns);
   }
   inputs_.resize(world_.scene().bodies().size());
-  for (StepInputs& inputs : inputs_) inputs.environment.wind_W = scenario_.wind;
+  environment_.wind_W = scenario_.wind;
+  environment_.ground = ground_.get();
+  environment_.bare_ground = bare_ground_.get();
+  for (StepInputs& inputs : inputs_) inputs.environment = environment_;
+  sensors_ = sensorSuiteOf(scenario_);
   reset(scenario_.seed);
 }
 
@@ -67,14 +76,18 @@ void Simulation::reset(std::int64_t seed) {
     state_.bodies.push_back(initialState(scenario_, body, mobility));
   };
   for (const VehicleScenario& vehicle : scenario_.vehicles) start(vehicle);
-  if (!scenario_.world) return;
-  for (const VehicleScenario& body : scenario_.world->bodies) start(body);
-  world_.partTouching(state_.bodies);
+  if (scenario_.world) {
+    for (const VehicleScenario& body : scenario_.world->bodies) start(body);
+    world_.partTouching(state_.bodies);
+  }
+  if (sensors_) state_.sensors = sensors_->start(seed, state_.tick, state_.bodies);
 }
 
 void Simulation::restore(const SimulationState& state) {
   demand(state.bodies.size() == inputs_.size() && state.engines.size() == vehicleCount(),
          "a state must come from the same scenario");
+  demand(!sensors_ || sensors_->fits(state.sensors, state.tick),
+         "what sensors remember must come from the same scenario");
   state_ = state;
 }
 
@@ -83,15 +96,18 @@ void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quate
   const FloatingPointEnvironment environment;
   demand(vehicle < vehicleCount(), "a motion must name a vehicle of the scenario");
   state_.bodies[vehicle] = placed(p_WB, q_WB, twist, modelOf(vehicle).mobility);
-  if (!scenario_.world) return;
-  const auto index = static_cast<std::int32_t>(vehicle);
-  auto& contacts = state_.contacts;
-  contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
-                                [index](const ContactMemory& contact) {
-                                  return contact.a == index || contact.b == index;
-                                }),
-                 contacts.end());
-  world_.partTouching(state_.bodies, index);
+  if (scenario_.world) {
+    const auto index = static_cast<std::int32_t>(vehicle);
+    auto& contacts = state_.contacts;
+    contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
+                                  [index](const ContactMemory& contact) {
+                                    return contact.a == index || contact.b == index;
+                                  }),
+                   contacts.end());
+    world_.partTouching(state_.bodies, index);
+  }
+  if (!sensors_) return;
+  sensors_->relocate(vehicle, state_.seed, state_.tick, state_.bodies, state_.sensors);
 }
 
 BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
@@ -151,12 +167,23 @@ void Simulation::applyDueCommands() {
 }
 
 /// What acts on each body in the step that begins now.
+/// The speeds of the fans over the step, at its stages.
+void Simulation::turnFans(const Cushion& cushion, FanSpeedCourse& course) const {
+  const double start = toSeconds(timeNs());
+  const double h = toSeconds(scenario_.step_ns);
+  course.start = cushion.describedSpeeds(start);
+  course.middle = cushion.describedSpeeds(start + 0.5 * h);
+  course.end = cushion.describedSpeeds(start + h);
+}
+
 void Simulation::prepareInputs() {
   std::size_t vehicle = 0;
   for (const EngineStates& engines : state_.engines) {
     StepInputs& inputs = inputs_[vehicle];
     engine_dynamics_[vehicle].course(engines, state_.tick, inputs.thrusts);
     inputs.is_loaded = false;
+    const auto& forces = modelOf(vehicle).ground_forces;
+    if (forces != nullptr && forces->cushion()) turnFans(*forces->cushion(), inputs.fan_speeds);
     ++vehicle;
   }
   for (const ExternalWrench& external : state_.wrenches) {
@@ -189,9 +216,11 @@ void Simulation::step() {
     takeResult();
   }
   ++state_.tick;
-  if (!on_contact) return;
-  sortRecords();
-  for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
+  if (on_contact) {
+    sortRecords();
+    for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
+  }
+  if (sensors_) readSensors();
 }
 
 /// Makes what the step ended with the state, if all of it is sound.
@@ -274,6 +303,29 @@ Motion Simulation::motionAfterSetting(std::size_t vehicle, const Vector3& p_WB,
 Motion Simulation::bodyMotion(std::size_t body) const {
   const FloatingPointEnvironment environment;
   return motionOf(modelOf(vehicleCount() + body), state_.bodies[vehicleCount() + body]);
+}
+
+std::size_t Simulation::cellCount(std::size_t vehicle) const {
+  const auto& forces = modelOf(vehicle).ground_forces;
+  return forces != nullptr && forces->cushion() ? forces->cushion()->cellCount() : 0;
+}
+
+void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const {
+  const FloatingPointEnvironment environment;
+  const HovercraftModel& model = modelOf(vehicle);
+  report.cells.resize(cellCount(vehicle));
+  report.fan_speeds.clear();
+  report.power = 0.0;
+  if (report.cells.empty()) return;
+  const BodyMotion motion =
+      std::visit([&](const auto& state) { return model.motionInBody(state, environment_); },
+                 state_.bodies[vehicle]);
+  const GroundForces& forces = *model.ground_forces;
+  const FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
+  forces.report(motion, environment_, speeds, report.cells.data());
+  for (const CellReport& cell : report.cells) report.power += cell.pressure * cell.flow;
+  const std::size_t fan_count = forces.cushion()->parameters().fans.size();
+  report.fan_speeds.assign(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(fan_count));
 }
 
 EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {

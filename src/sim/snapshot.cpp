@@ -8,6 +8,7 @@
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
@@ -58,7 +59,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const BodyState& body,
 std::string wrenchText(const Scenario& scenario, const ExternalWrench& external) {
   return fmt::format("  - {{vehicle: {}, frame: {}, force: {}, torque: {}, end_tick: {}}}\n",
                      yamlText(scenario.vehicles[external.vehicle].name),
-                     kFrameNames[static_cast<std::size_t>(external.frame)],
+                     frameNames()[static_cast<std::size_t>(external.frame)],
                      yamlVector(external.wrench.force), yamlVector(external.wrench.torque),
                      external.end_tick);
 }
@@ -120,6 +121,7 @@ std::string toSnapshot(const Simulation& simulation) {
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
   for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
+  yaml += sensorStatesText(simulation);
   const std::vector<Command> commands = state.commands.waiting();
   if (!commands.empty()) yaml += "commands:\n";
   for (const Command& command : commands) yaml += commandText(scenario, command);

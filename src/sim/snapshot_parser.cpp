@@ -11,6 +11,7 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
+#include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
@@ -192,7 +193,7 @@ ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario)
   ExternalWrench external;
   external.vehicle = parseVehicleName(reader, scenario);
   reader.text("frame");  // it must be there
-  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", kFrameNames));
+  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", frameNames()));
   external.wrench = {reader.vector("force"), reader.vector("torque")};
   external.end_tick = wholeNumber(reader, "end_tick", 0, std::numeric_limits<std::int64_t>::max());
   return external;
@@ -277,7 +278,7 @@ std::vector<ContactMemory> parseContacts(const ConfigReader& reader, const World
 }
 
 SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
-                           const World* world) {
+                           const Simulation& started) {
   SimulationState state;
   state.tick = wholeNumber(reader, "tick", 0, latestTick(scenario));
   state.seed = reader.wholeNumberOr(scenario.seed, "seed");
@@ -300,7 +301,8 @@ SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
   } else if (reader.has("bodies")) {
     reader.fail("bodies", "there are none in the scenario");
   }
-  state.contacts = parseContacts(reader, world);
+  state.contacts = parseContacts(reader, started.world());
+  state.sensors = parseSensorStates(reader, state.tick, started);
   state.commands = parseCommands(reader, scenario, state.tick);
   return state;
 }
@@ -368,18 +370,19 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
   const FloatingPointEnvironment environment;
   const ConfigReader reader(snapshotTree(text, source), source, "", false);
   reader.allowOnly({"format", "physics_version", "tick", "seed", "hash", "vehicles", "wrenches",
-                    "bodies", "contacts", "commands", "scenario"});
+                    "bodies", "contacts", "sensor_hash", "sensors", "commands", "scenario"});
   checkVersions(reader);
   if (!isTextOf(scenario, reader.text("scenario"), source)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }
   Simulation check(scenario);
-  SimulationState state = parseState(reader, scenario, check.world());
+  SimulationState state = parseState(reader, scenario, check);
   check.restore(state);
   const std::string hash = fmt::format("{:016x}", check.hash());
   if (reader.text("hash") != hash) {
     reader.fail("hash", fmt::format("must be that of the state, {}: it was changed", hash));
   }
+  checkSensorHash(reader, check);
   checkMotions(reader, check);
   return state;
 }

@@ -9,6 +9,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/sim/actuator_forces.h"
+#include "hovercraft_sim/sim/cushion_builder.h"
 
 namespace hovercraft {
 namespace {
@@ -85,17 +86,6 @@ WorldRules rulesOf(const WorldScenario& world) {
   return rules;
 }
 
-std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {
-  std::vector<WorldObstacle> obstacles;
-  for (const ObstacleScenario& obstacle : world.obstacles) {
-    const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
-    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
-    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
-                         static_cast<int>(obstacle.material)});
-  }
-  return obstacles;
-}
-
 std::vector<Vector3> placedPoints(std::vector<Vector3> points, const Vector3& p,
                                   const Vector3& rpy) {
   const Matrix3 R = rotationFromRpy(rpy);
@@ -153,7 +143,7 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
                                 ? Mobility::planar(body.mass, body.I_BBo_B)
                                 : Mobility::spatial(body.mass, body.I_BBo_B);
   return {mobility, EngineGeometry(vehicle.engines, body.p_HB), vehicle.drag,
-          body.mass * scenario.gravity, forcesOf(vehicle)};
+          body.mass * scenario.gravity, groundForcesOf(scenario, vehicle), forcesOf(vehicle)};
 }
 
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
@@ -165,6 +155,18 @@ BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
                                   twist);
   }
   return mobility.stateOfMotion(vehicle.initial_p_WB, rotationFromRpy(vehicle.initial_rpy), twist);
+}
+
+std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {
+  const FloatingPointEnvironment environment;
+  std::vector<WorldObstacle> obstacles;
+  for (const ObstacleScenario& obstacle : world.obstacles) {
+    const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
+    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
+    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
+                         static_cast<int>(obstacle.material)});
+  }
+  return obstacles;
 }
 
 World worldOf(const Scenario& scenario) {

@@ -104,17 +104,16 @@ HullScenario parseHull(const ConfigReader& reader, const ScenarioSource& source)
   return hull;
 }
 
-/// Hull and material of a craft or a loose body.
-void parseSurfaceOf(const ConfigReader& reader, const ScenarioSource& source,
-                    const WorldScenario& world, VehicleScenario& body) {
-  body.material = reader.choiceOr(0, "material", namesOf(world.materials));
+/// The hull of a craft or a loose body. @param is_needed by others that it meets.
+void parseHullOf(const ConfigReader& reader, const ScenarioSource& source, bool is_needed,
+                 VehicleScenario& body) {
   if (reader.has("hull")) {
     const ConfigReader hull = reader.map("hull");
     hull.allowOnly({"box", "cylinder", "sphere", "mesh", "points", "position", "rpy"});
     body.hull = parseHull(hull, source);
     return;
   }
-  if (body.parts.empty()) {
+  if (body.parts.empty() && is_needed) {
     reader.fail("hull", "is missing: in a scenario with a world a body has parts or a hull");
   }
   const bool has_mesh = std::any_of(body.parts.begin(), body.parts.end(), [](const auto& part) {
@@ -125,6 +124,13 @@ void parseSurfaceOf(const ConfigReader& reader, const ScenarioSource& source,
   HullScenario hull;
   hull.shape = PointsShape{convexHull(partPoints(body.parts), reader.where("parts")).vertices()};
   body.hull = hull;
+}
+
+/// Hull and material of a craft or a loose body.
+void parseSurfaceOf(const ConfigReader& reader, const ScenarioSource& source,
+                    const WorldScenario& world, VehicleScenario& body) {
+  body.material = reader.choiceOr(0, "material", namesOf(world.materials));
+  parseHullOf(reader, source, true, body);
 }
 
 void requireName(const ConfigReader& reader, const std::string& name) {
@@ -217,10 +223,16 @@ std::string surfaceText(const ContactMaterial& surface) {
 
 namespace {
 
-void refuseSurfaces(const ConfigReader& vehicles) {
-  for (const auto& [name, vehicle] : vehicles.maps()) {
-    for (const char* key : {"hull", "material"}) {
-      if (vehicle.has(key)) vehicle.fail(key, "needs a world: in the scenario");
+/// Without a world there are no materials, and hulls only where they stand on a ground.
+void parseHullsAlone(const ConfigReader& vehicles, const ScenarioSource& source,
+                     Scenario& scenario) {
+  for (VehicleScenario& vehicle : scenario.vehicles) {
+    const ConfigReader reader = vehicles.map(vehicle.name);
+    if (reader.has("material")) reader.fail("material", "needs a world: in the scenario");
+    if (scenario.ground) {
+      parseHullOf(reader, source, false, vehicle);
+    } else if (reader.has("hull")) {
+      reader.fail("hull", "needs a world: or a ground: in the scenario");
     }
   }
 }
@@ -251,7 +263,7 @@ void parseBodies(const ConfigReader& bodies, const ScenarioSource& source, BodyM
 void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
   if (!top.has("world")) {
-    refuseSurfaces(vehicles);
+    parseHullsAlone(vehicles, source, scenario);
     return;
   }
   const ConfigReader reader = top.map("world");
@@ -271,9 +283,11 @@ void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario&
 }
 
 std::string surfaceYaml(const VehicleScenario& vehicle, const Scenario& scenario) {
-  if (!scenario.world) return "";
-  std::string yaml =
-      fmt::format("    material: {}\n", yamlText(scenario.world->materials[vehicle.material].name));
+  std::string yaml;
+  if (scenario.world) {
+    yaml = fmt::format("    material: {}\n",
+                       yamlText(scenario.world->materials[vehicle.material].name));
+  }
   if (vehicle.hull) yaml += fmt::format("    hull: {{{}}}\n", hullText(*vehicle.hull));
   return yaml;
 }

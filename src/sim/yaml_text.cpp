@@ -255,6 +255,47 @@ std::string guarded(const std::string& lines) {
   return lines;
 }
 
+bool isWordLetter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// Letters, digits, points and hyphens that are no word which YAML 1.1 takes for true, false or
+/// nothing.
+bool isPlainName(const std::string& text) {
+  static const std::array<const char*, 9> words = {"true", "false", "yes", "no",  "on",
+                                                   "off",  "y",     "n",   "null"};
+  const auto is_of_name = [](char c) {
+    return isWordLetter(c) || isDigit(c) || c == '.' || c == '-';
+  };
+  if (text.empty() || !isWordLetter(text.front())) return false;
+  if (!std::all_of(text.begin(), text.end(), is_of_name)) return false;
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return std::find(words.begin(), words.end(), lower) == words.end();
+}
+
+/// In double quotes, with the escapes that YAML needs.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += {'\\', c};
+    } else if (c == '\n') {
+      result += "\\n";
+    } else if (c == '\t') {
+      result += "\\t";
+    } else if (byte < ' ' || c == '\x7f') {
+      result += fmt::format("\\x{:02x}", byte);
+    } else {
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
 }  // namespace
 
 ConfigNode treeOf(const std::string& text, const std::string& source) {
@@ -276,40 +317,8 @@ ConfigNode treeOf(const std::string& text, const std::string& source) {
   return builder.tree();
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 std::string yamlText(const std::string& text) {
-  // What YAML 1.1 takes for true, false or nothing.
-  static const std::array<const char*, 9> words = {"true", "false", "yes", "no",  "on",
-                                                   "off",  "y",     "n",   "null"};
-  const auto is_letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-  };
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::string lower = text;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  const bool is_word = std::find(words.begin(), words.end(), lower) != words.end();
-  const bool is_name = !text.empty() && is_letter(text.front()) &&
-                       std::all_of(text.begin(), text.end(), [&](char c) {
-                         return is_letter(c) || is_digit(c) || c == '.' || c == '-';
-                       });
-  if (is_name && !is_word) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '\n') {
-      quoted += "\\n";
-    } else if (c == '\t') {
-      quoted += "\\t";
-    } else if (byte < ' ' || c == '\x7f') {
-      quoted += fmt::format("\\x{:02x}", byte);
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + "\"";
+  return isPlainName(text) ? text : quoted(text);
 }
 
 std::string yamlNumber(double number) {

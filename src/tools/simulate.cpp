@@ -25,6 +25,10 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
       "; "
       "between them");
   add("contacts", po::value(&request.contacts), "contacts (.csv): bounces, sticks, rests");
+  add("cushion", po::value(&request.cushion),
+      "cells of cushions (.csv): pressure, gap, flow, force");
+  add("sensors", po::value(&request.sensors),
+      "folder for the samples of the sensors, one CSV file each: VEHICLE.SENSOR.csv");
   add("every,e", po::value(&request.every)->default_value(request.every),
       "put out every N-th tick");
   add("hold", po::bool_switch(&request.hold), "commands hold for ever: no engine times out");

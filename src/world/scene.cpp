@@ -77,7 +77,7 @@ void Scene::moveAll(const std::vector<BodyState>& states, const std::vector<Step
   auto state = states.begin();
   for (const WorldBody& body : bodies_) {
     const DrivenBody system = {body.model, input->thrusts, input->environment,
-                               input->is_loaded ? &input->load : nullptr};
+                               input->is_loaded ? &input->load : nullptr, &input->fan_speeds};
     if (end->index() != state->index()) *end = *state;
     if (const auto* start = std::get_if<RigidBodyState<Quaternion>>(&*state)) {
       *std::get_if<RigidBodyState<Quaternion>>(&*end) =
@@ -98,8 +98,15 @@ BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInput
   ExternalLoad load = inputs.is_loaded ? inputs.load : ExternalLoad();
   const bool is_pressed = squaredNorm(contact.force) > 0.0 || squaredNorm(contact.torque) > 0.0;
   if (is_pressed) load.in_world = load.in_world + contact;
+  const bool has_fans = bodies_[body].model.ground_forces != nullptr;
+  FanSpeedCourse cut_speeds;
+  const FanSpeedCourse* fan_speeds = &inputs.fan_speeds;
+  if (is_cut && has_fans) {
+    cut_speeds = inputs.fan_speeds.piece(piece.from, piece.to, rules_.step);
+    fan_speeds = &cut_speeds;
+  }
   const DrivenBody system = {bodies_[body].model, thrusts, inputs.environment,
-                             inputs.is_loaded || is_pressed ? &load : nullptr};
+                             inputs.is_loaded || is_pressed ? &load : nullptr, fan_speeds};
   return std::visit(
       [&](const auto& start) -> BodyState {
         return bodyStep<decltype(start.orientation)>(rules_.integrator, start, system,

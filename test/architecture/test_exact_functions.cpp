@@ -36,6 +36,18 @@ const std::vector<NamedPlace>& namedPlaces() {
       {"src/sim/compare.cpp", "sin", 5, "interpolates between samples of a finished run"},
       {"src/ros/flown_path.cpp", "hypot", 1, "the spacing of a line that is drawn"},
       {"src/ros/vehicle_markers.cpp", "acos", 1, "a right angle of a marker that is drawn"},
+      {"src/report/figure_axes.cpp", "pow", 1, "round numbers beside a drawing"},
+      {"src/report/figure_axes.cpp", "log10", 1, "round numbers beside a drawing"},
+      {"src/report/figure_png.cpp", "hypot", 2, "pixels of a drawing"},
+      {"src/report/run_figures.cpp", "atan2", 1, "a drawing"},
+      {"src/report/run_figures.cpp", "cos", 1, "a drawing"},
+      {"src/report/run_figures.cpp", "sin", 1, "a drawing"},
+      {"src/report/run_figures.cpp", "hypot", 1, "a drawing"},
+      {"src/report/run_motion.cpp", "atan2", 1, "speeds of a finished run that are drawn"},
+      {"src/report/run_panels.cpp", "atan2", 2, "angles of a finished run that are drawn"},
+      {"src/report/run_panels.cpp", "asin", 1, "angles of a finished run that are drawn"},
+      {"src/report/run_panels.cpp", "acos", 1, "angles of a finished run that are drawn"},
+      {"src/report/run_reader.cpp", "hypot", 1, "the top speed of a finished run"},
   };
   return places;
 }

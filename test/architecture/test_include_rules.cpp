@@ -28,9 +28,9 @@ Names operator+(Names a, const Names& b) {
 }
 
 const std::map<std::string, Rule>& rules() {
-  static const Names messages = {"geometry_msgs/",  "nav_msgs/",          "rosgraph_msgs/",
-                                 "std_msgs/",       "std_srvs/",          "tf2_msgs/",
-                                 "hovercraft_sim/", "visualization_msgs/"};
+  static const Names messages = {"geometry_msgs/", "nav_msgs/",       "rosgraph_msgs/",
+                                 "sensor_msgs/",   "std_msgs/",       "std_srvs/",
+                                 "tf2_msgs/",      "hovercraft_sim/", "visualization_msgs/"};
   static const Names of_ros = messages +
                               Names{"Eigen/", "fmt/", "gtest/", "ros/", "rosbag/", "tf2_ros/"} +
                               Names{"XmlRpcValue.h", "bzlib.h", "boost/make_shared.hpp",
@@ -41,16 +41,27 @@ const std::map<std::string, Rule>& rules() {
        {{}, {"Eigen/", "boost/multiprecision/", "fcntl.h", "locale.h", "sys/stat.h", "unistd.h"}}},
       {"geometry", {{"math"}, {"Eigen/", "fmt/", "libqhull_r/"}}},
       {"body", {{"math", "geometry"}, {"Eigen/", "fmt/"}}},
-      {"hovercraft", {{"math", "geometry", "body"}, {}}},
+      {"cushion", {{"math", "geometry", "body"}, {}}},
+      {"hovercraft", {{"math", "geometry", "body", "cushion"}, {}}},
       {"collision", {{"math", "geometry"}, {"Eigen/"}}},
       {"contact", {{"math", "geometry", "body", "collision"}, {"Eigen/"}}},
-      {"world", {{"math", "geometry", "body", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
+      {"world",
+       {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
+      {"control", {{"math"}, {}}},
+      {"sensors", {{"math", "geometry", "body", "cushion"}, {}}},
       {"sim",
-       {{"math", "geometry", "body", "hovercraft", "collision", "contact", "world"},
-        {"fmt/", "yaml-cpp/", "fcntl.h", "sys/stat.h", "unistd.h"}}},
-      {"ros", {{"math", "geometry", "body", "hovercraft", "sim"}, of_ros}},
+       {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact", "control",
+         "sensors", "world"},
+        {"fmt/", "yaml-cpp/", "png.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
+      {"ros",
+       {{"math", "geometry", "body", "cushion", "hovercraft", "control", "sensors", "sim"},
+        of_ros}},
+      {"report",
+       {{"math", "geometry", "body", "cushion", "hovercraft", "sensors", "sim", "ros"},
+        of_ros + Names{"zlib.h"}}},
       {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
-      {"tools", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+      {"tools",
+       {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
   return table;
 }
@@ -171,8 +182,8 @@ TEST(IncludeRules, RosInTheCoreIsRefused) {
        {"<ros/ros.h>", "<rosbag/bag.h>", "<tf2/LinearMath/Quaternion.h>", "<tf2_ros/buffer.h>",
         "<geometry_msgs/Pose.h>", "<hovercraft_sim/State.h>", "<XmlRpcValue.h>",
         "\"hovercraft_sim/ros/conversions.h\"", "\"ros/ros.h\""}) {
-    for (const char* module :
-         {"math", "geometry", "body", "hovercraft", "collision", "contact", "world", "sim"}) {
+    for (const char* module : {"math", "geometry", "body", "hovercraft", "collision", "contact",
+                               "sensors", "world", "sim"}) {
       EXPECT_EQ(violationsOf(module, "#include " + std::string(header)).size(), 1U)
           << module << " " << header;
     }

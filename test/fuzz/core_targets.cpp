@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "hovercraft_sim/sim/commands_csv.h"
+#include "hovercraft_sim/sim/grey_image.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/states_csv.h"
@@ -150,6 +151,10 @@ void readSnapshot(const std::string& input) {
     simulation.restore(parseSnapshot(text, "input", scenario));
     fly(simulation);
   });
+}
+
+void readImage(const std::string& input) {
+  answer([&] { greyImageOf(input); });
 }
 
 }  // namespace hovercraft::fuzz

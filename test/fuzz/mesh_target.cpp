@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 
@@ -17,7 +18,9 @@ void readAs(MeshFormat format, const std::string& input) {
   try {
     const LoadedMesh surface = parseSurface(input, format, Vector3::Ones(), "input");
     for (const auto& face : surface.mesh.faces) {
-      for (const int v : face) surface.mesh.vertices.at(static_cast<std::size_t>(v));
+      for (const int v : face) {
+        if (v < 0 || static_cast<std::size_t>(v) >= surface.mesh.vertices.size()) std::abort();
+      }
     }
     if (surface.mesh.vertices.size() <= kMostHullVertices) {
       polyhedronFromMesh(surface.mesh, NonConvexMesh::kTakeHull, "input");

@@ -23,6 +23,8 @@ void readStatesCsv(const std::string& input);
 /// A snapshot without its scenario, which is added, and with whatever hash, which is set right.
 void readSnapshot(const std::string& input);
 void readBag(const std::string& input);
+/// An image of heights, PGM or PNG.
+void readImage(const std::string& input);
 /// As OBJ and as STL, as a surface and as a body.
 void readMesh(const std::string& input);
 
@@ -33,6 +35,7 @@ inline const std::vector<Target>& targets() {
                                           {"states_csv", readStatesCsv},
                                           {"snapshot", readSnapshot},
                                           {"bag", readBag},
+                                          {"image", readImage},
                                           {"mesh", readMesh}};
   return all;
 }

@@ -9,6 +9,7 @@
 
 #include "hovercraft_sim/ros/command_schedule.h"
 
+#include "../support/numbers.h"
 #include "../support/scenarios.h"
 
 namespace hovercraft_ros {
@@ -17,7 +18,7 @@ namespace {
 using hovercraft_sim::AppliedCommand;
 using hovercraft_sim::ScheduleCommands;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+using hovercraft::testing::kNan;
 
 ScheduleCommands::Request requestOf(std::uint64_t tick, double rear) {
   ScheduleCommands::Request request;

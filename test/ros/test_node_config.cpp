@@ -173,11 +173,11 @@ TEST(NodeConfig, SaysWhichParameterBreaksWhichRule) {
 }
 
 TEST(NodeConfig, AParameterThatNobodyKnowsIsAnError) {
-  EXPECT_EQ(
-      complaintWith("{publish_rat: 50}"),
-      "/sim: publish_rat = 50: unknown key; known here: scenario, scenario_dir, "
-      "scenario_file, set, publish_rate, world_frame, tf_prefix, real_time_factor, paused, clock, "
-      "clock_rate, lockstep, control_period, lockstep_timeout, diagnostic_period");
+  EXPECT_EQ(complaintWith("{publish_rat: 50}"),
+            "/sim: publish_rat = 50: unknown key; known here: scenario, scenario_dir, "
+            "scenario_file, set, publish_rate, world_frame, tf_prefix, truth_odom, map_height, "
+            "map_resolution, real_time_factor, paused, clock, clock_rate, lockstep, "
+            "control_period, lockstep_timeout, diagnostic_period");
 }
 
 // As roslaunch's `if`, and as rosparam reads YAML.
@@ -276,6 +276,27 @@ TEST(NodeConfig, AMeshOfAPackageThatIsNotThereIsAnError) {
       "    parts: [{mesh: {file: 'package://no_such_package/a.obj'}, mass: 1}]\n");
   const std::string complaint = complaintAbout(with(parametersOf("{}"), "scenario", text));
   EXPECT_NE(complaint.find("no_such_package"), std::string::npos) << complaint;
+}
+
+TEST(NodeConfig, TheTrueOdometryMayHaveAnotherTopic) {
+  EXPECT_EQ(configWith("").truth_odom, "odom");
+  EXPECT_EQ(configWith("truth_odom: truth/odom").truth_odom, "truth/odom");
+  for (const char* bad : {"/odom", "truth/", "a b", "truth//odom"}) {
+    EXPECT_NE(complaintWith(std::string("truth_odom: '") + bad + "'").find("/sim: truth_odom = "),
+              std::string::npos)
+        << bad;
+  }
+}
+
+TEST(NodeConfig, AMapHasAHeightAndCells) {
+  EXPECT_FALSE(configWith("").map_height.has_value());
+  const NodeConfig config = configWith("{map_height: 0.2, map_resolution: 0.1}");
+  EXPECT_EQ(config.map_height, 0.2);
+  EXPECT_EQ(config.map_resolution, 0.1);
+  EXPECT_EQ(complaintWith("map_resolution: 0.1"),
+            "/sim: map_resolution = 0.1: has a meaning with map_height only");
+  EXPECT_EQ(complaintWith("{map_height: 0.2, map_resolution: 0}"),
+            "/sim: map_resolution = 0: must be greater than 0");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 
 #include "../support/allocation_counter.h"
 #include "../support/scenario_text.h"
+#include "../support/sensor_scenario.h"
 
 namespace hovercraft {
 namespace {
@@ -39,6 +41,28 @@ long allocationsWhileDriven(const Scenario& scenario) {
   const long taken = allocations - before;
   EXPECT_EQ(applied, 2002U);
   return taken;
+}
+
+TEST(Allocations, NoneInAStepOnACushionOverAnyGround) {
+  for (const char* name : {"rc5", "rough", "ramp"}) {
+    Simulation simulation(loadScenario("config/" + std::string(name) + ".yaml"));
+    for (int n = 0; n < 300; ++n) simulation.step();
+    const long before = allocations;
+    for (int n = 0; n < 300; ++n) simulation.step();
+    EXPECT_EQ(allocations - before, 0) << name;
+  }
+}
+
+TEST(Allocations, NoneInAStepWithEverySensor) {
+  Simulation simulation(testing::scenarioOf(
+      testing::sensedCraftYaml(testing::allSensors() + testing::laserSensor())));
+  std::uint64_t count = 0;
+  simulation.on_sample = [&count](const SensorSample& /*sample*/) { ++count; };
+  simulation.step();
+  const long before = allocations;
+  for (int n = 0; n < 1000; ++n) simulation.step();
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_GT(count, 200U);
 }
 
 TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {

@@ -25,11 +25,10 @@ inline void PrintTo(const BrokenRule& rule, std::ostream* stream) {  // NOLINT: 
 inline const std::vector<BrokenRule> kBrokenKeys = {
     {"UnknownKey", "seed: 7", "sede: 7",
      "sede = 7: unknown key; known here: physics_version, step_size, integrator, orientation, "
-     "model, "
-     "gravity, wind, seed, vehicles, world"},
+     "model, gravity, wind, seed, vehicles, world, ground"},
     {"UnknownVehicleKey", "    mass: 5.5", "    weight: 5.5",
      "vehicles.alpha.weight = 5.5: unknown key; known here: mass, inertia, center_of_mass, parts, "
-     "engines, actuators, drag, hull, material, visual, initial"},
+     "engines, actuators, drag, hull, material, visual, initial, cushion, sensors, tf"},
     {"UnknownEngine", "      left: {", "      port: {",
      "vehicles.alpha.engines.port = {position: [0.2, 0.15, 0.05], direction: [0, -1, 0], "
      "min_thrust: 0, max_thrust: ...: unknown key; known here: rear, left, right"},

@@ -23,6 +23,7 @@ struct StepInputs {
   ExternalLoad load;
   bool is_loaded = false;  // else `load` counts for nothing
   Environment environment;
+  FanSpeedCourse fan_speeds = {};  // of the whole step; of a craft with a cushion
 };
 
 /// A piece of a step, s from its start; contact cuts a step at every impact.
@@ -36,18 +37,20 @@ struct DrivenBody {
   const HovercraftModel& model;
   const ThrustCourse& thrusts;  // at the start, middle and end of the piece
   const Environment& environment;
-  const ExternalLoad* load = nullptr;  // none
+  const ExternalLoad* load = nullptr;          // none
+  const FanSpeedCourse* fan_speeds = nullptr;  // over the piece; of a craft with ground forces
 
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
     return derivativeWith<true>(state, stage);
   }
-  template <bool kHasForces, class Orientation>
+  template <bool kHasMore, class Orientation>
   StateDerivative<Orientation> derivativeWith(const RigidBodyState<Orientation>& state,
                                               Stage stage) const {
-    StateDerivative<Orientation> rate =
-        model.derivativeWith<kHasForces>(state, thrusts.at(stage), environment);
+    StateDerivative<Orientation> rate = model.derivativeWith<kHasMore>(
+        state, thrusts.at(stage), environment,
+        kHasMore && fan_speeds != nullptr ? &fan_speeds->at(stage) : nullptr);
     if (load != nullptr) {
       const Matrix3 R_WB = rotationMatrix(state.orientation);
       const Wrench pushed =
@@ -64,7 +67,7 @@ struct DrivenBody {
   }
 };
 
-/// A body whose model has no forces in its list: the same system, for less.
+/// A body on which nothing but engines, drag and weight acts: the same system, for less.
 struct DrivenBodyOfEngines {
   const DrivenBody& body;
 
@@ -83,7 +86,7 @@ struct DrivenBodyOfEngines {
 template <class Orientation>
 RigidBodyState<Orientation> bodyStep(Integrator integrator, const RigidBodyState<Orientation>& y,
                                      const DrivenBody& f, double h) {
-  if (!f.model.forces.empty()) return integrationStep<Orientation, DrivenBody>(integrator, y, f, h);
+  if (f.model.hasMoreForces()) return integrationStep<Orientation, DrivenBody>(integrator, y, f, h);
   return integrationStep<Orientation, DrivenBodyOfEngines>(integrator, y, DrivenBodyOfEngines{f},
                                                            h);
 }

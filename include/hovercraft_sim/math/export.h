@@ -6,3 +6,6 @@
 /// names, and the loader would put them in the place of the library's (ARCHITECTURE.md,
 /// Determinism).
 #define HOVERCRAFT_PUBLIC __attribute__((visibility("default")))
+
+/// On a template in a public class, whose instances are for the library alone.
+#define HOVERCRAFT_HIDDEN __attribute__((visibility("hidden")))

@@ -31,6 +31,21 @@ class FloatingPointEnvironment {
   FloatingPointEnvironment(const FloatingPointEnvironment&) = delete;
   FloatingPointEnvironment& operator=(const FloatingPointEnvironment&) = delete;
 
+  /// The number, computed here: a compiler takes arithmetic for independent of the environment, and
+  /// moves it past whoever changes that. For what a function takes or returns in registers.
+  static double computed(double number) {
+#if defined(__x86_64__)
+    asm volatile("" : "+x"(number) : : "memory");
+    return number;
+#elif defined(__aarch64__)
+    asm volatile("" : "+w"(number) : : "memory");
+    return number;
+#else
+    const volatile double held = number;
+    return held;
+#endif
+  }
+
  private:
   HOVERCRAFT_PUBLIC void setDefault();
   HOVERCRAFT_PUBLIC void restore();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -39,11 +40,29 @@ class HOVERCRAFT_PUBLIC NoiseChannel {
 
   /// A standard normal variate. @param draw its number among those of this tick.
   double normal(Tick tick, std::uint32_t draw = 0) const {
-    const PhiloxCounter words = philox4x32({lowWord(tick), highWord(tick), stream_, draw}, key_);
+    const PhiloxCounter words = wordsOf(tick, draw);
     return normalFromBits((std::uint64_t{words[1]} << 32U) | words[0]);
   }
 
+  /// Two independent ones of one draw, of which the first is normal().
+  std::array<double, 2> normals(Tick tick, std::uint32_t draw) const {
+    const PhiloxCounter words = wordsOf(tick, draw);
+    return {normalFromBits((std::uint64_t{words[1]} << 32U) | words[0]),
+            normalFromBits((std::uint64_t{words[3]} << 32U) | words[2])};
+  }
+
+  /// Uniform in [0, 1): a multiple of 2^-53.
+  double uniform(Tick tick, std::uint32_t draw = 0) const {
+    constexpr double kUnit = 1.0 / 9007199254740992.0;  // 2^-53
+    const PhiloxCounter words = wordsOf(tick, draw);
+    const std::uint64_t bits = (std::uint64_t{words[1]} << 32U) | words[0];
+    return static_cast<double>(bits >> 11U) * kUnit;
+  }
+
  private:
+  PhiloxCounter wordsOf(Tick tick, std::uint32_t draw) const {
+    return philox4x32({lowWord(tick), highWord(tick), stream_, draw}, key_);
+  }
   static constexpr std::uint32_t lowWord(std::int64_t number) {
     return static_cast<std::uint32_t>(static_cast<std::uint64_t>(number));
   }

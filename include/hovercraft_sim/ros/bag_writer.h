@@ -12,6 +12,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/body_messages.h"
+#include "hovercraft_sim/ros/sensor_messages.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/run.h"
@@ -29,6 +30,8 @@ class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
   void state(const hovercraft::Simulation& simulation) override;
   void applied(const hovercraft::Command& command) override;
   void contact(const hovercraft::ContactEvent& event) override;
+  /// Received at the time of its delivery, stamped with that of its measurement.
+  void sample(const hovercraft::SensorSample& sample) override;
   void close() override;
 
   /// An event that was just applied, at the tick and of the episode that it names. After one that
@@ -58,6 +61,7 @@ class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
   std::uint64_t events_ = 0;  // of that episode
   std::vector<VehicleMessages> vehicles_;
   std::vector<BodyMessages> bodies_;
+  std::vector<SensorMessages> sensors_;  // of each vehicle
   tf2_msgs::TFMessage transforms_;
 };
 

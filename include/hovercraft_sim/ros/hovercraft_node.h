@@ -25,6 +25,7 @@
 #include "hovercraft_sim/ros/node_config.h"
 #include "hovercraft_sim/ros/pace_report.h"
 #include "hovercraft_sim/ros/pacer.h"
+#include "hovercraft_sim/ros/sensor_interface.h"
 #include "hovercraft_sim/ros/vehicle_interface.h"
 #include "hovercraft_sim/ros/warning_limiter.h"
 
@@ -70,10 +71,12 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
  private:
   void addVehicle(const ros::NodeHandle& handle, std::size_t vehicle);
   void addBody(const ros::NodeHandle& handle, std::size_t body);
+  void addSensors(const ros::NodeHandle& handle);
   void addReports(ros::NodeHandle& own);
   void advertiseTransforms(ros::NodeHandle handle);
   Claims claims() const;
   void publishConstants();
+  void publishMap(ros::NodeHandle handle);
   void setRealTimeFactor(double real_time_factor);
   void restartPace();
   bool stands() const;
@@ -102,7 +105,9 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   std::vector<std::unique_ptr<VehicleInterface>> vehicles_;
   std::vector<BodyMessages> bodies_;                                       // loose ones
   std::vector<NewcomerPublisher<geometry_msgs::PoseStamped>> body_poses_;  // of each
+  std::optional<SensorInterface> sensors_;
   ros::Publisher contacts_;
+  ros::Publisher map_;
   ros::Publisher scenario_, events_, telemetry_;
   NewcomerPublisher<tf2_msgs::TFMessage> transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;

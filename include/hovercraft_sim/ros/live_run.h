@@ -32,6 +32,8 @@ class HOVERCRAFT_PUBLIC LiveRun {
   /// tick 1, as in the bags of `simulate`.
   ros::Time headerStamp() const { return stamp().isZero() ? stampOf(1) : stamp(); }
   ros::Time stampOf(hovercraft::Tick tick) const;
+  /// ROS time of a measurement. After a load a sample may be of before time 0: it gets 1 ns.
+  ros::Time sampleStamp(hovercraft::Tick tick) const;
   /// Of tick 0 of this episode, ns.
   std::int64_t epochNs() const { return epoch_ns_; }
 

@@ -6,6 +6,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include <geometry_msgs/PoseStamped.h>
+#include <hovercraft_sim/Cushion.h>
 #include <hovercraft_sim/EngineStatus.h>
 #include <hovercraft_sim/State.h>
 #include <ros/node_handle.h>
@@ -33,6 +34,7 @@ class HOVERCRAFT_PUBLIC MarkersNode {
     hovercraft::VehicleScenario description;
     std::string world_frame;
     hovercraft_sim::EngineStatus engines;
+    hovercraft_sim::Cushion cushion;
     FlownPath path;
     std::vector<ros::Subscriber> subscribers;
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "hovercraft_sim/math/export.h"
@@ -15,6 +16,9 @@ struct NodeConfig {
   hovercraft::Scenario scenario;
   hovercraft::Tick publish_every = 1;  // ticks from one published state to the next
   TfFrames frames;                     // parameters world_frame, tf_prefix
+  std::string truth_odom = "odom";     // topic of the true odometry
+  std::optional<double> map_height;    // m: of the plane that `map` shows; none: no map
+  double map_resolution = 0.05;        // m
   double real_time_factor = 1.0;       // simulated per wall time; 0: as fast as it can
   bool paused = false;                 // at the start
   bool clock = false;                  // publish /clock and be the time source, from time 0
@@ -44,7 +48,9 @@ extern HOVERCRAFT_PUBLIC const char* const kRealTimeFactorRuleText;
 /// or `scenario_file`, the absolute path of one; `set`, overrides of either (withOverrides);
 /// `publish_rate` in Hz (a divisor of the step rate; default the nearest to 100),
 /// `control_period` in s (a multiple of the step size; default the publish period; an error without
-/// `lockstep`), `world_frame` and `tf_prefix`, and what the other members of NodeConfig are called.
+/// `lockstep`), `world_frame` and `tf_prefix`, `truth_odom`
+/// (with another name than odom, the first odometry sensor gets `odom`), and what the other members
+/// of NodeConfig are called.
 /// @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule.
 HOVERCRAFT_PUBLIC NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters,

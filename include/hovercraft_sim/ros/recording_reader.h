@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/ros/recorded_samples.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
 
@@ -42,6 +44,10 @@ struct Recording {
   std::vector<hovercraft_sim::RunEvent> events;
   std::vector<RecordedState> states;
 
+  std::vector<RecordedSample> samples;  // of sensors, as they lie in the bag
+  /// ROS time of tick 0 of each episode, ns.
+  std::map<std::uint32_t, std::int64_t> epochs_ns;
+
   /// From its time on to the end of its episode, states rest on a command or an event that the bag
   /// lacks; `missing` says which. A reset or a load that is there makes all before it irrelevant.
   struct Gap {
@@ -53,10 +59,10 @@ struct Recording {
   std::uint64_t missing_states = 0;
 };
 
-/// Reads topics by their types: State, AppliedCommand, RunEvent, and the scenario (std_msgs/String
-/// named .../scenario). Which commands and events are missing is seen from their numbers, which
-/// each State repeats; which states, from header.seq, which a publisher counts up (a bag of
-/// `simulate`, where all are 0, is whole).
+/// Reads topics by their types: State, AppliedCommand, RunEvent, those of sensors, and the scenario
+/// (std_msgs/String named .../scenario). Which commands and events are missing is seen from their
+/// numbers, which each State repeats; which states, from header.seq, which a publisher counts up (a
+/// bag of `simulate`, where all are 0, is whole).
 /// @throws std::invalid_argument that names the file and what is wrong: no bag, no index, damaged,
 /// no scenario, no state, a vehicle that the scenario lacks, more than one run; or topic, time and
 /// rule of a message that cannot be (recorded_messages.h), such as a State whose stamp does not fit

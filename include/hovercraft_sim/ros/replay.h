@@ -24,6 +24,7 @@ struct ReplayDifference {
 struct ReplayResult {
   std::optional<ReplayDifference> difference;
   std::uint64_t compared_states = 0;
+  std::uint64_t compared_samples = 0;  // messages of sensors
   hovercraft::Tick simulated_ticks = 0;
   std::uint64_t hash = 0;  // Simulation::hash() at the end
   /// States that rest on something that the recording lacks (Recording::gaps).
@@ -35,12 +36,14 @@ struct ReplayObserver {
   std::function<void(const hovercraft::Simulation&)> on_state;  // where the recording holds a state
   std::function<void(const hovercraft::Command&)> on_applied;
   std::function<void(const hovercraft::ContactEvent&)> on_contact;
+  hovercraft::SampleSink on_sample;
   /// After the event was applied.
   std::function<void(const hovercraft_sim::RunEvent&, const hovercraft::Simulation&)> on_event;
 };
 
 /// Runs again what a recording holds, commands and events at their ticks, and compares every
-/// recorded state bit for bit until the first difference or the first gap.
+/// recorded state, and message of a sensor, bit for bit until the first difference or the first
+/// gap.
 /// @param scenario that it runs in; that of the recording, or another one to see what would have
 /// been; a snapshot that was loaded then gives it the motion, not the momenta.
 /// @throws std::invalid_argument that names the recording and the event if one does not fit the

@@ -35,6 +35,8 @@ struct SimulateRequest {
   std::string duration;         // decimal seconds; empty: until kAfterLastCommandNs after the last
   std::string output;           // as openOutput()
   std::string contacts;         // CSV file of contacts; empty: none
+  std::string cushion;          // CSV file of the cells of cushions; empty: none
+  std::string sensors;          // folder of CSV files, one a sensor; empty: none
   hovercraft::Tick every = 1;   // ticks from one output to the next
   bool hold = false;            // commands hold for ever: every time-out is 0
   bool shows_progress = false;  // a bar, while it runs

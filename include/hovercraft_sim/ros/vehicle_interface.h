@@ -36,6 +36,8 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
     /// The run stands, and publishes nothing by itself: who subscribes then is given the present
     /// state, he alone.
     std::function<bool()> stands;
+    /// The topic of the true odometry.
+    std::string truth_odom = kOdomTopic;
   };
 
   /// @param handle of the namespace that the craft's own namespace lies in.
@@ -63,9 +65,9 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
 
  private:
   template <class Message>
-  NewcomerPublisher<Message> advertise(ros::NodeHandle& handle, const char* topic,
-                                       const Message& (VehicleMessages::*message)() const,
-                                       bool latched);
+  HOVERCRAFT_HIDDEN NewcomerPublisher<Message> advertise(
+      ros::NodeHandle& handle, const char* topic,
+      const Message& (VehicleMessages::*message)() const, bool latched);
   void subscribe(ros::NodeHandle& handle);
   void subscribeActuators(ros::NodeHandle& handle);
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
@@ -87,6 +89,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   NewcomerPublisher<hovercraft_sim::EngineStatus> engines_;
   NewcomerPublisher<hovercraft_sim::ActuatorStatusArray> actuators_;
   NewcomerPublisher<hovercraft_sim::State> state_;
+  NewcomerPublisher<hovercraft_sim::Cushion> cushion_;  // of a craft that has one
   ros::Publisher commands_;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -9,6 +9,7 @@
 #include <geometry_msgs/TwistStamped.h>
 #include <hovercraft_sim/ActuatorStatusArray.h>
 #include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/Cushion.h>
 #include <hovercraft_sim/EngineStatus.h>
 #include <hovercraft_sim/State.h>
 #include <nav_msgs/Odometry.h>
@@ -26,6 +27,7 @@ constexpr const char* kPoseTopic = "pose";
 constexpr const char* kTwistTopic = "twist";
 constexpr const char* kOdomTopic = "odom";
 constexpr const char* kEnginesTopic = "engines";
+constexpr const char* kCushionTopic = "cushion";
 constexpr const char* kActuatorsTopic = "actuators";
 constexpr const char* kActuatorCommandTopic = "actuator_command";
 constexpr const char* kStateTopic = "state";
@@ -49,6 +51,10 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   VehicleMessages(const hovercraft::Scenario& scenario, std::size_t vehicle,
                   TfFrames frames = TfFrames());
 
+  /// Whether tf has the craft's true pose.
+  bool hasTransform() const { return tf() == hovercraft::TfSource::kTruth; }
+  hovercraft::TfSource tf() const { return description_.tf; }
+
   /// Fills every message from the simulation as it stands.
   void fill(const hovercraft::Simulation& simulation, const RunStamp& place);
 
@@ -69,9 +75,13 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   const hovercraft_sim::ActuatorStatusArray& actuators() const { return actuators_; }
   bool hasActuators() const { return !actuators_.actuators.empty(); }
   const hovercraft_sim::State& state() const { return state_; }
+  bool hasCushion() const { return description_.cushion.has_value(); }
+  /// Of a craft that has one.
+  const hovercraft_sim::Cushion& cushion() const { return cushion_; }
 
  private:
   void enter(std::uint32_t episode);
+  void fillCushion(const hovercraft::Simulation& simulation);
   void fillActuators(const hovercraft::Simulation& simulation);
 
   hovercraft::VehicleScenario description_;
@@ -86,6 +96,8 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   hovercraft_sim::EngineStatus engines_;
   hovercraft_sim::ActuatorStatusArray actuators_;
   hovercraft_sim::State state_;
+  hovercraft_sim::Cushion cushion_;
+  hovercraft::CushionReport cushion_report_;
 };
 
 }  // namespace hovercraft_ros

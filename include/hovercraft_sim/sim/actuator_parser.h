@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,10 +7,6 @@
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft {
-
-/// A time of the scenario in ns. @param seconds the number behind `key`.
-/// @throws std::invalid_argument if it is too long or no whole number of nanoseconds.
-std::int64_t wholeNanoseconds(const ConfigReader& reader, const char* key, double seconds);
 
 /// `engines` of a craft: those that are left out have limits 0. A craft that has other actuators
 /// may leave all of them out.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -37,6 +38,7 @@ class HOVERCRAFT_PUBLIC ConfigReader {
 
   /// Throws if there is a key that is not listed.
   void allowOnly(std::initializer_list<const char*> keys) const;
+  void allowOnly(const std::vector<std::string>& keys) const;
 
   bool has(const char* key) const;
   /// How many keys there are.
@@ -55,6 +57,8 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   std::int64_t wholeNumberOr(std::int64_t fallback, const char* key) const;
   /// Three numbers, each of which obeys the rule.
   Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
+  /// Any number of numbers, also none; at most `most`.
+  std::vector<double> numbers(const char* key, std::size_t most) const;
   /// A length, m: greater than 0 and at most kFarthest.
   double length(const char* key) const;
   /// Three of them.

@@ -23,6 +23,7 @@ class HOVERCRAFT_PUBLIC ContactsCsvWriter : public StateSink {
   void state(const Simulation& simulation) override { next_->state(simulation); }
   void applied(const Command& command) override { next_->applied(command); }
   void contact(const ContactEvent& event) override;
+  void sample(const SensorSample& sample) override { next_->sample(sample); }
   void close() override;
 
  private:

@@ -9,6 +9,10 @@
 
 namespace hovercraft {
 
+/// The absolute path that the key `file` of a map names: a path, or a package:// URL.
+/// @throws std::invalid_argument
+std::string filePath(const ConfigReader& reader, const ScenarioSource& source);
+
 /// The `file` and `scale` of a map `mesh`, the file as an absolute path.
 /// @throws std::invalid_argument
 MeshShape parseMesh(const ConfigReader& reader, const ScenarioSource& source);

@@ -26,6 +26,8 @@ class StateSink {
   virtual void applied(const Command& /*command*/) {}
   /// A contact, when the step in which it happened is done, before the state after it.
   virtual void contact(const ContactEvent& /*event*/) {}
+  /// A sample of a sensor, at the tick of its delivery, before the state of that tick.
+  virtual void sample(const SensorSample& /*sample*/) {}
   /// The run is over and was whole. @throws std::invalid_argument if it could not all be written.
   virtual void close() = 0;
 };
@@ -53,7 +55,8 @@ struct RunSummary {
 
 /// Steps a simulation to the plan's last tick as fast as it goes: commands from the source, states
 /// to the sink, which is closed at the end.
-/// @param simulation at the beginning of the run; its on_applied and on_contact are taken over.
+/// @param simulation at the beginning of the run; its on_applied, on_contact and on_sample are
+/// taken over.
 HOVERCRAFT_PUBLIC RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
                                  const RunPlan& plan);
 

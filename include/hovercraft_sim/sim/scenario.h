@@ -11,14 +11,21 @@
 #include "hovercraft_sim/body/mass_properties.h"
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/contact/material.h"
+#include "hovercraft_sim/cushion/cushion.h"
+#include "hovercraft_sim/cushion/height_map.h"
+#include "hovercraft_sim/cushion/pads.h"
 #include "hovercraft_sim/hovercraft/drag.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sensors/sensor_parameters.h"
 
 namespace hovercraft {
 
 enum class OrientationKind { kQuaternion, kMatrix };
 enum class BodyModel { kPlanar, kSpatial };
+/// Which transform of a craft's base_link goes into tf: from the world by its true pose, from its
+/// odometry frame by its first odometry sensor, or none.
+enum class TfSource { kTruth, kOdometry, kNone };
 
 /// The solids that a craft may be composed of; lengths in m.
 struct BoxShape {
@@ -107,14 +114,40 @@ struct VehicleScenario {
   std::array<bool, kEngineCount> has_engine = {true, true, true};  // else its limits are 0
   std::vector<ActuatorScenario> actuators;                         // by name; ids from 3 on
   Drag drag;
+  std::optional<CushionParameters> cushion;
   std::optional<HullScenario>
-      hull;  // none: the convex hull of the parts, in a scenario with a world
+      hull;  // none: the convex hull of the parts, in a scenario with a world or a ground
   std::optional<VisualScenario> visual;
-  std::size_t material = 0;                // index into WorldScenario::materials
+  std::size_t material = 0;               // index into WorldScenario::materials
+  std::vector<SensorParameters> sensors;  // by name
+  TfSource tf = TfSource::kTruth;
   Vector3 initial_p_WB = Vector3::Zero();  // m
   Vector3 initial_rpy = Vector3::Zero();   // rad
   Vector3 initial_v_WB = Vector3::Zero();  // m/s
   Vector3 initial_w_WB = Vector3::Zero();  // rad/s
+};
+
+/// A plane as ground.
+struct PlaneScenario {
+  double height = 0.0;                // m, at x = y = 0
+  Vector3 normal = Vector3::UnitZ();  // of length 1, z > 0
+};
+
+/// Heights as the pixels of an image, named as in the YAML of map_server.
+struct HeightMapScenario {
+  std::string image;        // all bytes of a PGM or PNG file
+  double resolution = 0.0;  // m, edge of a pixel
+  double x = 0.0;           // m, of the lower left corner of the image
+  double y = 0.0;
+  double z_min = 0.0;  // m, of a pixel of value 0
+  double z_max = 0.0;  // m, of a pixel of the greatest value
+  HeightGrid grid;     // as read
+};
+
+/// Ground besides the obstacles of a world.
+struct GroundScenario {
+  std::variant<PlaneScenario, HeightMapScenario> surface;
+  PadParameters pads;
 };
 
 struct MaterialScenario {
@@ -159,6 +192,7 @@ struct Scenario {
   std::int64_t seed = 1;
   std::vector<VehicleScenario> vehicles;  // in the order of their names
   std::optional<WorldScenario> world;     // none: craft pass through each other
+  std::optional<GroundScenario> ground;   // none: the obstacles of the world, if there are any
 
   double stepSize() const { return toSeconds(step_ns); }  // s
 };

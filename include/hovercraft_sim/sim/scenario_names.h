@@ -9,13 +9,16 @@ namespace hovercraft {
 
 /// The words of a scenario file, in the order of the enumerators of Integrator, OrientationKind and
 /// BodyModel.
-extern HOVERCRAFT_PUBLIC const std::vector<std::string> kIntegratorNames;
-extern HOVERCRAFT_PUBLIC const std::vector<std::string> kOrientationNames;
-extern HOVERCRAFT_PUBLIC const std::vector<std::string> kModelNames;
+HOVERCRAFT_PUBLIC const std::vector<std::string>& integratorNames();
+HOVERCRAFT_PUBLIC const std::vector<std::string>& orientationNames();
+HOVERCRAFT_PUBLIC const std::vector<std::string>& modelNames();
 /// The words for the kinds of actuators, in the order of ActuatorKind.
-extern HOVERCRAFT_PUBLIC const std::vector<std::string> kActuatorKindNames;
+HOVERCRAFT_PUBLIC const std::vector<std::string>& actuatorKindNames();
+/// Those of TfSource and of SensorKind.
+HOVERCRAFT_PUBLIC const std::vector<std::string>& tfSourceNames();
+HOVERCRAFT_PUBLIC const std::vector<std::string>& sensorKindNames();
 /// The words for the frames of an external wrench, in the order of ExternalWrench::Frame.
-extern HOVERCRAFT_PUBLIC const std::vector<std::string> kFrameNames;
+HOVERCRAFT_PUBLIC const std::vector<std::string>& frameNames();
 
 /// A name that can be a ROS namespace and a tf prefix: a letter, then letters, digits and
 /// underscores.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sensors/sensor_suite.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/world/world.h"
@@ -38,6 +40,7 @@ struct SimulationState {
   std::vector<EngineStates> engines;     // of each vehicle
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
   std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
+  std::vector<SensorState> sensors;      // of all craft, in the order of the scenario
   CommandLog commands;                   // that have not taken effect
 };
 
@@ -71,6 +74,13 @@ struct EngineReport {
   bool saturated;
   bool timed_out;
   double command_age;  // s of simulated time; -1 before the first command
+};
+
+/// The cushion of a craft as it is reported.
+struct CushionReport {
+  std::vector<CellReport> cells;   // in the order of the scenario
+  std::vector<double> fan_speeds;  // of each fan, shares of their nominal speeds
+  double power = 0.0;              // W, that the fans put into the air
 };
 
 /// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
@@ -129,22 +139,41 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// Null if the scenario has no world.
   const World* world() const { return scenario_.world ? &world_ : nullptr; }
   EngineReport engineReport(std::size_t vehicle, int engine) const;
+  /// Cells of the cushion of a craft; 0 without one.
+  std::size_t cellCount(std::size_t vehicle) const;
+  /// The cushion of a craft as it is now; no cells without one. @param report replaced.
+  void cushionReport(std::size_t vehicle, CushionReport& report) const;
 
   /// Hash of everything that determines the future of one craft, or of all: FNV-1a, 64 bits,
   /// defined in ARCHITECTURE.md.
   std::uint64_t hash(std::size_t vehicle) const;
   std::uint64_t hash() const;
 
+  /// Hash of what determines the samples to come of one craft's sensors, or of all: memories, and
+  /// samples on their way. 0 without sensors. Sensors act on no body, and hash() does not know
+  /// them.
+  std::uint64_t sensorHash(std::size_t vehicle) const;
+  std::uint64_t sensorHash() const;
+  /// The next tick after this one at which a sample may be delivered; the greatest there is without
+  /// sensors.
+  Tick nextSampleTick() const;
+  /// Null if no craft has sensors.
+  const SensorSuite* sensors() const { return sensors_ ? &*sensors_ : nullptr; }
+
   /// Called for every command when it takes effect; not set: nothing is called.
   std::function<void(const Command&)> on_applied;
   /// Called for every contact of a step, in the order of time, when the step is done.
   std::function<void(const ContactEvent&)> on_contact;
+  /// Called for every sample that is due, when the step is done and its contacts have been told.
+  SampleSink on_sample;
 
  private:
   void applyDueCommands();
   void endWrenches();
+  void turnFans(const Cushion& cushion, FanSpeedCourse& course) const;
   void prepareInputs();
   void takeResult();
+  void readSensors();
   [[noreturn]] void failAsDiverged(std::size_t body) const;
   void sortRecords();
   ContactEvent eventOf(const ContactRecord& record) const;
@@ -157,10 +186,14 @@ class HOVERCRAFT_PUBLIC Simulation {
 
   Scenario scenario_;
   World world_;
+  std::shared_ptr<const Ground> ground_;         // what cushions blow on; none
+  std::shared_ptr<const Ground> bare_ground_;    // what pads stand on; none
+  Environment environment_;                      // of every body
   std::vector<EngineDynamics> engine_dynamics_;  // of each vehicle
   SimulationState state_;
   std::vector<StepInputs> inputs_;  // of each body, in the step that is made
-  StepResult result_;               // of it, until all of it is known to be sound
+  std::optional<SensorSuite> sensors_;
+  StepResult result_;  // of it, until all of it is known to be sound
 };
 
 }  // namespace hovercraft

@@ -75,6 +75,17 @@ class StateHash {
     }
   }
 
+  /// A sensor: its memory; number of samples on their way, then tick and values of each.
+  void add(const SensorState& sensor) {
+    for (const double number : sensor.memory) add(number);
+    add(static_cast<std::uint64_t>(sensor.pending.size()));
+    for (std::size_t i = 0; i < sensor.pending.size(); ++i) {
+      add(sensor.pending.tick(i));
+      const double* const values = sensor.pending.values(i);
+      for (std::size_t k = 0; k < sensor.pending.width(); ++k) add(values[k]);
+    }
+  }
+
   std::uint64_t value() const { return value_; }
 
  private:

@@ -35,6 +35,9 @@ HOVERCRAFT_PUBLIC HovercraftModel modelOf(const Scenario& scenario, const Vehicl
 HOVERCRAFT_PUBLIC BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
                                          const Mobility& mobility);
 
+/// What never moves in a world, by name.
+std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world);
+
 /// The bodies of a scenario: its vehicles, then its loose bodies, both by name. Without `world:`
 /// they pass through each other.
 HOVERCRAFT_PUBLIC World worldOf(const Scenario& scenario);

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/cushion/body_motion.h"
+#include "hovercraft_sim/cushion/ground.h"
+#include "hovercraft_sim/cushion/ground_spring.h"
+#include "hovercraft_sim/cushion/mirror_pairs.h"
+#include "hovercraft_sim/math/export.h"
+
+namespace hovercraft {
+
+/// How hulls stand on ground that is no polyhedron: each vertex is a spring.
+struct PadParameters {
+  double sink = 1e-3;  // m: how deep a body sinks that four of its vertices carry
+  GroundSpring spring = {10.0, 0.5, 0.02};
+};
+
+/// The vertices of a body's hull as springs on the ground.
+class HOVERCRAFT_PUBLIC Pads {
+ public:
+  Pads() = default;
+  /// @param vertices_B of the hull, m. @param weight m g, N: four vertices that sink by the
+  /// parameters' sink carry it.
+  Pads(const std::vector<Vector3>& vertices_B, double weight, const PadParameters& parameters);
+
+  bool empty() const { return vertices_B_.empty(); }
+  /// The wrench on the body about its centre of mass, in B.
+  Wrench wrenchInBody(const BodyMotion& motion, const Ground& ground) const;
+
+  double stiffness() const { return stiffness_; }  // N/m, of a vertex
+  const GroundSpring& spring() const { return spring_; }
+  const std::vector<Vector3>& vertices() const { return vertices_B_; }
+
+ private:
+  Wrench wrenchOf(const Vector3& p_B, const BodyMotion& motion, const GroundSample& sample) const;
+
+  std::vector<Vector3> vertices_B_;  // mirrored pairs first: one after the other
+  std::size_t paired_ = 0;           // of so many
+  double stiffness_ = 0.0;
+  GroundSpring spring_;
+};
+
+}  // namespace hovercraft

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/sim/output_file.h"
+#include "hovercraft_sim/sim/run.h"
+
+namespace hovercraft {
+
+/// Hands everything on to another sink, and writes the cells of all cushions as CSV with the header
+/// `time,vehicle,cell,pressure,gap,flow,force`: s, name, number from 0 in the order of the
+/// scenario, Pa, m, m³/s, N. Times are exact; numbers as appendNumber().
+class HOVERCRAFT_PUBLIC CushionCsvWriter : public StateSink {
+ public:
+  /// @throws std::invalid_argument if the file cannot be opened for writing, or no vehicle has a
+  /// cushion.
+  CushionCsvWriter(const std::string& path, const Scenario& scenario,
+                   std::unique_ptr<StateSink> next);
+
+  void state(const Simulation& simulation) override;
+  void applied(const Command& command) override { next_->applied(command); }
+  void contact(const ContactEvent& event) override { next_->contact(event); }
+  void close() override;
+
+ private:
+  OutputFile file_;
+  std::unique_ptr<StateSink> next_;
+  std::vector<std::string> names_;  // of the vehicles
+  CushionReport report_;
+};
+
+}  // namespace hovercraft

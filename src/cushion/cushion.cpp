@@ -1,0 +1,325 @@
+#include "hovercraft_sim/cushion/cushion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "hovercraft_sim/cushion/gap.h"
+#include "hovercraft_sim/math/demand.h"
+
+namespace hovercraft {
+namespace {
+
+/// Heights of a cell that its hem may be pressed in at most, as the hull stands on the ground by
+/// then: what rises higher above a point of the hem is a wall beside it.
+constexpr double kMostCompression = 2.0;
+
+/// The order of hem points within a cell: mirrored cells get mirrored points in the same places.
+bool comesBefore(const HemPoint& a, const HemPoint& b) {
+  const auto key = [](const Vector3& p) {
+    return std::make_tuple(std::abs(p.x()), std::abs(p.y()), p.z(), p.x(), p.y());
+  };
+  return key(a.p_HK) < key(b.p_HK);
+}
+
+}  // namespace
+
+/// Of every cell and hem point in one stage.
+struct Cushion::Airs {
+  std::array<CellAir, kMaxCells> air;
+  std::array<double, kMaxCells> mean_gap;  // m
+  std::array<double, kMaxHemPoints> compression;
+};
+
+/// The ground where it is one plane: what does not depend on the point is computed once.
+class Cushion::PlaneProbe {
+ public:
+  PlaneProbe(const GroundPlane& plane, const BodyMotion& motion)
+      : nhat_B_(transposeTimes(motion.R_WB, plane.nhat_W)), gap_(plane.gap(motion.p_WB)) {}
+
+  double gapOfPoint(std::size_t /*point*/, const Vector3& p_BK) const {
+    return dot(nhat_B_, p_BK) + gap_;
+  }
+  const Vector3& normalAtPoint(std::size_t /*point*/) const { return nhat_B_; }
+  const Vector3& normalAtCell(std::size_t /*cell*/) const { return nhat_B_; }
+
+ private:
+  Vector3 nhat_B_;
+  double gap_;  // m, of the centre of mass
+};
+
+/// Any other ground: it is asked for all hem points and cells at once.
+class Cushion::SampledProbe {
+ public:
+  SampledProbe(const Ground& ground, const BodyMotion& motion, const Cushion& cushion)
+      : R_WB_(motion.R_WB), point_count_(cushion.points_.size()) {
+    std::array<GroundPoint, kMaxHemPoints + kMaxCells> points;
+    int count = 0;
+    const auto add = [&](const Vector3& p_B) {
+      const Vector3 p_W = times(motion.R_WB, p_B) + motion.p_WB;
+      points[static_cast<std::size_t>(count++)] = {p_W.x(), p_W.y(), p_W.z()};
+    };
+    for (const Point& point : cushion.points_) add(point.p_BK);
+    for (const Cell& cell : cushion.cells_) add(cell.p_BC);
+    const double below = (times(motion.R_WB, cushion.p_BH_) + motion.p_WB).z();
+    ground.sample({points.data(), count, below, cushion.reach_}, samples_.data());
+  }
+
+  double gapOfPoint(std::size_t point, const Vector3& /*p_BK*/) const {
+    return samples_[point].gap;
+  }
+  Vector3 normalAtPoint(std::size_t point) const {
+    return transposeTimes(R_WB_, samples_[point].nhat_W());
+  }
+  Vector3 normalAtCell(std::size_t cell) const { return normalAtPoint(point_count_ + cell); }
+
+ private:
+  const Matrix3& R_WB_;
+  std::size_t point_count_;
+  std::array<GroundSample, kMaxHemPoints + kMaxCells> samples_;
+};
+
+Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
+    : parameters_(parameters),
+      p_BH_(-p_HB),
+      outflow_factor_(parameters.discharge * std::sqrt(2.0 / parameters.air_density)) {
+  demand(!parameters.cells.empty() && parameters.cells.size() <= kMaxCells,
+         "a cushion has at least one cell, and no more than fit");
+  demand(parameters.fans.size() <= kMaxFans, "a cushion has no more fans than fit");
+  std::vector<PlacedElement> placed_cells;
+  std::vector<PlacedElement> placed_points;
+  for (CushionCell& described : parameters_.cells) {
+    demand(described.fan < parameters.fans.size(), "a cell must name a fan of the cushion");
+    std::sort(described.hem.begin(), described.hem.end(), comesBefore);
+    Cell cell;
+    cell.p_BC = described.p_HC - p_HB;
+    cell.area = described.area;
+    cell.fan = described.fan;
+    cell.first_point = points_.size();
+    for (const HemPoint& point : described.hem) {
+      points_.push_back(
+          {point.p_HK - p_HB, point.length, point.length * parameters.skirt.stiffness});
+      cell.hem_length += point.length;
+      placed_points.push_back({points_.back().p_BK, point.length});
+    }
+    cell.end_point = points_.size();
+    demand(cell.end_point > cell.first_point, "a cell has hem");
+    total_area_ += cell.area;
+    reach_ = std::max(reach_, kMostCompression * described.height);
+    total_length_ += cell.hem_length;
+    placed_cells.push_back({cell.p_BC, cell.area});
+    cells_.push_back(cell);
+  }
+  demand(points_.size() <= kMaxHemPoints, "a cushion has no more hem points than fit");
+  for (const CushionFan& fan : parameters.fans) intakes_B_.emplace_back(fan.p_HI - p_HB);
+  cell_pairs_ = mirrorPairs(placed_cells);
+  point_pairs_ = mirrorPairs(placed_points);
+}
+
+double CushionFan::speedAt(double time) const {
+  if (speeds.empty()) return speed;
+  if (!(time > speeds.front().time)) return speeds.front().speed;
+  for (std::size_t i = 1; i < speeds.size(); ++i) {
+    const FanSpeedPoint& from = speeds[i - 1];
+    const FanSpeedPoint& to = speeds[i];
+    if (time >= to.time) continue;
+    return from.speed + (time - from.time) / (to.time - from.time) * (to.speed - from.speed);
+  }
+  return speeds.back().speed;
+}
+
+double CushionFan::fullSpeed() const {
+  double most = speeds.empty() ? speed : 0.0;
+  for (const FanSpeedPoint& point : speeds) most = std::max(most, point.speed);
+  return most;
+}
+
+FanSpeedCourse FanSpeedCourse::piece(double from, double to, double h) const {
+  const auto speedsAt = [&](double share) {
+    const bool is_early = share < 0.5;
+    const FanSpeeds& first = is_early ? start : middle;
+    const FanSpeeds& second = is_early ? middle : end;
+    const double part = is_early ? 2.0 * share : 2.0 * share - 1.0;
+    FanSpeeds speeds;
+    for (std::size_t i = 0; i < kMaxFans; ++i) {
+      speeds[i] = first[i] + part * (second[i] - first[i]);
+    }
+    return speeds;
+  };
+  return {speedsAt(from / h), speedsAt(0.5 * (from + to) / h), speedsAt(to / h)};
+}
+
+FanSpeeds Cushion::describedSpeeds(double time) const {
+  FanSpeeds speeds = {};
+  for (std::size_t i = 0; i < parameters_.fans.size(); ++i) {
+    speeds[i] = parameters_.fans[i].speedAt(time);
+  }
+  return speeds;
+}
+
+FanSpeeds Cushion::fullSpeeds() const {
+  FanSpeeds speeds = {};
+  for (std::size_t i = 0; i < parameters_.fans.size(); ++i) {
+    speeds[i] = parameters_.fans[i].fullSpeed();
+  }
+  return speeds;
+}
+
+/// Pressure and flow of each cell over the ground that the probe sees.
+template <class Probe>
+void Cushion::blow(const BodyMotion& motion, const FanSpeeds& speeds, const Probe& probe,
+                   Airs& airs) const {
+  std::array<FanAtSpeed, kMaxFans> fans;
+  for (std::size_t i = 0; i < parameters_.fans.size(); ++i) {
+    fans[i] = atSpeed(parameters_.fans[i].curve, speeds[i]);
+  }
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Cell& cell = cells_[i];
+    double area_under_hem = 0.0;
+    double gaps = 0.0;
+    for (std::size_t k = cell.first_point; k < cell.end_point; ++k) {
+      const Point& point = points_[k];
+      const double gap = probe.gapOfPoint(k, point.p_BK);
+      const HemGap hem = hemGap(gap, parameters_.residual_gap);
+      area_under_hem += point.length * hem.open;
+      gaps += point.length * gap;
+      airs.compression[k] = hem.compression;
+    }
+    airs.mean_gap[i] = gaps / cell.hem_length;
+    const double outflow = outflow_factor_ * leakArea(area_under_hem, cell.area);
+    const double pumping = cell.area * dot(probe.normalAtCell(i), motion.velocityAt(cell.p_BC));
+    airs.air[i] = cellAir(fans[cell.fan], outflow, pumping);
+  }
+}
+
+/// The force of each cell is p S along z of B, at the cell's centroid: the hull and the skirt
+/// within a hem feel p times the area vector of that hem, whatever their shape. (8)
+Wrench Cushion::pressureWrench(const Airs& airs) const {
+  double force = 0.0;
+  double roll = 0.0;
+  double pitch = 0.0;
+  for (const MirrorPair& pair : cell_pairs_) {
+    const auto first = static_cast<std::size_t>(pair[0]);
+    double pair_force = airs.air[first].pressure * cells_[first].area;
+    double pair_roll = pair_force * cells_[first].p_BC.y();
+    double pair_pitch = pair_force * cells_[first].p_BC.x();
+    if (pair[1] >= 0) {
+      const auto second = static_cast<std::size_t>(pair[1]);
+      const double other = airs.air[second].pressure * cells_[second].area;
+      pair_roll += other * cells_[second].p_BC.y();
+      pair_pitch += other * cells_[second].p_BC.x();
+      pair_force += other;
+    }
+    force += pair_force;
+    roll += pair_roll;
+    pitch += pair_pitch;
+  }
+  return {Vector3(0.0, 0.0, force), Vector3(roll, -pitch, 0.0)};
+}
+
+template <class Probe>
+Wrench Cushion::skirtWrench(const BodyMotion& motion, const Probe& probe, const Airs& airs) const {
+  const auto wrenchOf = [&](int index) -> Wrench {
+    const auto k = static_cast<std::size_t>(index);
+    const Point& point = points_[k];
+    const Vector3 force =
+        parameters_.skirt.spring.force(point.stiffness * airs.compression[k],
+                                       probe.normalAtPoint(k), motion.velocityAt(point.p_BK));
+    return {force, cross(point.p_BK, force)};
+  };
+  Wrench sum;
+  for (const MirrorPair& pair : point_pairs_) {
+    sum = sum + (pair[1] < 0 ? wrenchOf(pair[0]) : wrenchOf(pair[0]) + wrenchOf(pair[1]));
+  }
+  return sum;
+}
+
+/// What a fan takes in is brought to the craft's velocity at its intake:
+/// F = -m_dot u(r_in), M = r_in x F, m_dot = rho |Q|. (24)
+Wrench Cushion::momentumDrag(const BodyMotion& motion, const Airs& airs) const {
+  std::array<double, kMaxFans> flows = {};
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    flows[cells_[i].fan] += std::abs(airs.air[i].fan_flow);
+  }
+  Wrench sum;
+  for (std::size_t i = 0; i < intakes_B_.size(); ++i) {
+    const double mass_flow = parameters_.air_density * flows[i];
+    const Vector3 force = -mass_flow * (motion.u_B + cross(motion.w_WB_B, intakes_B_[i]));
+    sum = sum + Wrench{force, cross(intakes_B_[i], force)};
+  }
+  return sum;
+}
+
+template <class Probe>
+Wrench Cushion::wrenchOver(const BodyMotion& motion, const FanSpeeds& speeds,
+                           const Probe& probe) const {
+  Airs airs;
+  blow(motion, speeds, probe, airs);
+  const Wrench air = pressureWrench(airs) + momentumDrag(motion, airs);
+  if (!(parameters_.skirt.stiffness > 0.0)) return air;
+  return air + skirtWrench(motion, probe, airs);
+}
+
+Wrench Cushion::wrenchInBody(const BodyMotion& motion, const FanSpeeds& speeds,
+                             const Ground& ground) const {
+  if (const GroundPlane* plane = ground.plane()) {
+    return wrenchOver(motion, speeds, PlaneProbe(*plane, motion));
+  }
+  return wrenchOver(motion, speeds, SampledProbe(ground, motion, *this));
+}
+
+/// Each cell has the pressure that carries its share of the load, or that of its fan without flow,
+/// if that is less: the hem then lies on the ground.
+void Cushion::planarAirs(const FanSpeeds& speeds, double load, Airs& airs) const {
+  const double wanted = load / total_area_;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const FanAtSpeed fan = atSpeed(parameters_.fans[cells_[i].fan].curve, speeds[cells_[i].fan]);
+    const double pressure = std::min(wanted, fan.shutoff);
+    airs.air[i] = {pressure, fanFlow(fan, pressure)};
+    airs.mean_gap[i] = 0.0;
+  }
+}
+
+Wrench Cushion::planarWrenchInBody(const BodyMotion& motion, const FanSpeeds& speeds,
+                                   double load) const {
+  Airs airs;
+  planarAirs(speeds, load, airs);
+  const double left = std::max(0.0, load - pressureWrench(airs).force.z());
+  const double per_metre = left / total_length_;
+  const auto wrenchOf = [&](int index) -> Wrench {
+    const Point& point = points_[static_cast<std::size_t>(index)];
+    Vector3 velocity = motion.velocityAt(point.p_BK);
+    velocity.z() = 0.0;
+    const Vector3 force =
+        parameters_.skirt.spring.force(per_metre * point.length, Vector3::UnitZ(), velocity);
+    return {force, cross(point.p_BK, force)};
+  };
+  Wrench sum = momentumDrag(motion, airs);
+  if (!(left > 0.0)) return sum;
+  for (const MirrorPair& pair : point_pairs_) {
+    sum = sum + (pair[1] < 0 ? wrenchOf(pair[0]) : wrenchOf(pair[0]) + wrenchOf(pair[1]));
+  }
+  return sum;
+}
+
+void Cushion::write(const Airs& airs, CellReport* reports) const {
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const CellAir& air = airs.air[i];
+    reports[i] = {air.pressure, airs.mean_gap[i], air.fan_flow, air.pressure * cells_[i].area};
+  }
+}
+
+void Cushion::report(const BodyMotion& motion, const FanSpeeds& speeds, const Ground& ground,
+                     CellReport* reports) const {
+  Airs airs;
+  blow(motion, speeds, SampledProbe(ground, motion, *this), airs);
+  write(airs, reports);
+}
+
+void Cushion::planarReport(const FanSpeeds& speeds, double load, CellReport* reports) const {
+  Airs airs;
+  planarAirs(speeds, load, airs);
+  write(airs, reports);
+}
+
+}  // namespace hovercraft

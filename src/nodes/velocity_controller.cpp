@@ -1,0 +1,27 @@
+#include <exception>
+
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/param.h>
+#include <ros/this_node.h>
+
+#include "hovercraft_sim/ros/parameters.h"
+#include "hovercraft_sim/ros/velocity_node.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "velocity_controller");
+  ros::NodeHandle handle;
+  try {
+    const std::string& name = ros::this_node::getName();
+    XmlRpc::XmlRpcValue parameters;
+    ros::param::get(ros::NodeHandle("~").getNamespace(), parameters);
+    const hovercraft_ros::VelocityNode node(
+        handle, hovercraft_ros::parseVelocityNodeConfig(
+                    hovercraft_ros::parameterTree(parameters, name), name));
+    ros::spin();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}

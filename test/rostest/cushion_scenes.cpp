@@ -1,0 +1,148 @@
+// Craft on cushions, live and recorded: each scene flies its commands, and its bag is read. The
+// flight is that of simulate to the last bit, and so are the messages of the cushion.
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <hovercraft_sim/Cushion.h>
+#include <hovercraft_sim/State.h>
+#include <ros/package.h>
+
+#include "hovercraft_sim/ros/flight_test.h"
+#include "hovercraft_sim/ros/simulate.h"
+
+#include "../support/recorded_flight.h"
+
+namespace hovercraft_ros::testing {
+namespace {
+
+constexpr double kWeight = 5.15 * 9.80665;  // N, of rc5
+constexpr double kHoverHeight = 0.053;      // m, of its centre of mass: 50 mm over a gap of 3 mm
+constexpr double kPadHeight = 0.042;        // m, on its hull
+
+class Scene {
+ public:
+  /// Flies the scene with its commands, for `settle` s after the last of them.
+  Scene(const std::string& name, double settle) : recording_(fly(name, settle)) {}
+
+  /// The state at or after a time, s.
+  const hovercraft_sim::State& at(double time) const {
+    const auto found = std::find_if(states_.begin(), states_.end(), [time](const auto& state) {
+      return 1e-3 * static_cast<double>(state.tick) >= time;
+    });
+    EXPECT_NE(found, states_.end());
+    return found == states_.end() ? states_.back() : *found;
+  }
+  /// Force of the cushion at that time, N.
+  double force(double time) const {
+    const ros::Time stamp = at(time).header.stamp;
+    for (const auto& cushion : cushions_) {
+      if (cushion.header.stamp != stamp) continue;
+      double sum = 0.0;
+      for (const auto& cell : cushion.cells) sum += cell.force;
+      return sum;
+    }
+    ADD_FAILURE() << "no cushion at " << time;
+    return 0.0;
+  }
+  const std::vector<hovercraft_sim::State>& states() const { return states_; }
+  const std::vector<hovercraft_sim::Cushion>& cushions() const { return cushions_; }
+
+ private:
+  Recording fly(const std::string& name, double settle) {
+    const std::string config = ros::package::getPath("hovercraft_sim") + "/config/" + name;
+    const TemporaryFolder folder;
+    SimulateRequest request;
+    request.scenario = config + ".yaml";
+    request.commands = config + ".csv";
+    request.output = folder.path() + "/reference.bag";
+    request.every = 10;
+    request.hold = true;
+    std::ostringstream messages;
+    simulate(request, messages);
+    std::vector<std::string> topics = outputTopics({"rc5"});
+    topics.emplace_back("/rc5/cushion");
+    RecordedFlight recorded(topics);
+    Flight flight;
+    flight.play(config + ".csv", settle);
+    EXPECT_TRUE(follows(flight, request.output, {}));
+    Recording recording = recorded.finish();
+    states_ = recording.messages<hovercraft_sim::State>("/rc5/state");
+    cushions_ = recording.messages<hovercraft_sim::Cushion>("/rc5/cushion");
+    EXPECT_EQ(states_.size(), cushions_.size());
+    compareCushions(Recording(request.output));
+    return recording;
+  }
+
+  /// Live and by simulate: cell by cell the same numbers.
+  void compareCushions(const Recording& reference) {
+    std::size_t compared = 0;
+    for (const auto& expected : reference.messages<hovercraft_sim::Cushion>("/rc5/cushion")) {
+      const std::int64_t since = (expected.header.stamp - ros::Time()).toNSec();
+      for (std::size_t i = 0; i < states_.size(); ++i) {
+        if (static_cast<std::int64_t>(states_[i].tick) * 1000000 != since) continue;
+        ASSERT_LT(i, cushions_.size());
+        ASSERT_EQ(cushions_[i].cells.size(), expected.cells.size());
+        EXPECT_EQ(cushions_[i].fan_speed, expected.fan_speed);
+        for (std::size_t k = 0; k < expected.cells.size(); ++k) {
+          EXPECT_EQ(cushions_[i].cells[k].pressure, expected.cells[k].pressure);
+          EXPECT_EQ(cushions_[i].cells[k].gap, expected.cells[k].gap);
+        }
+        ++compared;
+        break;
+      }
+    }
+    EXPECT_GT(compared, 50U);
+  }
+
+  std::vector<hovercraft_sim::State> states_;
+  std::vector<hovercraft_sim::Cushion> cushions_;
+  Recording recording_;
+};
+
+TEST(Ramp, IsClimbedAndTheCraftSettlesOnItAndLiftsOffAgain) {
+  const Scene scene("ramp", 3.6);
+  const auto above = [&](double time) {
+    const auto& p = scene.at(time).pose.position;
+    return p.z - (p.x > 0.5 ? (p.x - 0.5) * std::tan(0.05) : 0.0);
+  };
+  EXPECT_NEAR(scene.at(0.2).pose.position.z, kHoverHeight, 1e-3);
+  EXPECT_NEAR(scene.force(0.2), kWeight, 0.05 * kWeight);
+  // On the slope, with its fan at rest: it stands on its hull and does not move.
+  EXPECT_GT(scene.at(4.5).pose.position.x, 1.0);
+  EXPECT_NEAR(above(4.5), kPadHeight / std::cos(0.05), 1e-4);
+  EXPECT_NEAR(scene.force(4.5), 0.0, 0.01 * kWeight);
+  const double way = std::hypot(scene.at(4.9).pose.position.x - scene.at(4.5).pose.position.x,
+                                scene.at(4.9).pose.position.y - scene.at(4.5).pose.position.y);
+  EXPECT_LT(way, 1e-6);
+  // Its fan turns again: it lifts off, and slides down.
+  EXPECT_NEAR(above(6.0), kHoverHeight, 1.5e-3);
+  EXPECT_LT(scene.at(6.1).pose.position.x, scene.at(5.0).pose.position.x - 0.05);
+}
+
+TEST(Rough, GroundIsFollowedWithTheWeightOnTheCushion) {
+  const Scene scene("rough", 5.0);
+  double lowest = 1.0;
+  double highest = 0.0;
+  double mean = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < scene.states().size(); ++i) {
+    if (scene.states()[i].tick < 1000) continue;
+    lowest = std::min(lowest, scene.states()[i].pose.position.z);
+    highest = std::max(highest, scene.states()[i].pose.position.z);
+    for (const auto& cell : scene.cushions()[i].cells) mean += cell.force;
+    count += 1.0;
+  }
+  EXPECT_GT(scene.states().back().pose.position.x, 3.0);
+  EXPECT_GT(highest - lowest, 0.004);
+  EXPECT_GT(mean / count, 0.5 * kWeight);
+  EXPECT_LT(mean / count, 1.05 * kWeight);
+}
+
+}  // namespace
+}  // namespace hovercraft_ros::testing

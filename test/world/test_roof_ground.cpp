@@ -1,0 +1,120 @@
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/geometry/convex_hull.h"
+#include "hovercraft_sim/geometry/polyhedron_shapes.h"
+#include "hovercraft_sim/math/rotation.h"
+#include "hovercraft_sim/world/roof_ground.h"
+
+namespace hovercraft {
+namespace {
+
+GroundSample sampleOf(const Ground& ground, double x, double y, double z, double below,
+                      double reach = kNoGround) {
+  const GroundPoint point = {x, y, z};
+  GroundSample sample;
+  ground.sample({&point, 1, below, reach}, &sample);
+  return sample;
+}
+
+Pose at(double x, double y, double z) {
+  return {Matrix3::Identity(), Vector3(x, y, z)};
+}
+
+TEST(RoofGround, UpperSideOfABoxIsGroundAndBesideItThereIsNone) {
+  RoofGround ground(nullptr);
+  ground.add(boxPolyhedron(Vector3(4.0, 2.0, 1.0)), at(0.0, 0.0, -0.5));
+  EXPECT_EQ(sampleOf(ground, 1.9, 0.9, 0.003, 0.1).gap, 0.003);
+  EXPECT_EQ(sampleOf(ground, 1.9, 0.9, -0.002, 0.1).gap, -0.002);
+  EXPECT_EQ(sampleOf(ground, 2.1, 0.9, 0.003, 0.1).gap, kNoGround);
+  EXPECT_EQ(sampleOf(ground, 1.9, -1.1, 0.003, 0.1).gap, kNoGround);
+}
+
+TEST(RoofGround, RampHasItsSlopesGapAndNormal) {
+  RoofGround ground(nullptr);
+  const Matrix3 R = rotationFromRpy({0.0, -0.2, 0.5});  // rises along its x
+  ground.add(boxPolyhedron(Vector3(4.0, 2.0, 1.0)), {R, Vector3(3.0, 1.0, 0.0)});
+  const Vector3 n = R.col(2);
+  const Vector3 above = Vector3(3.0, 1.0, 0.0) + times(R, Vector3(0.7, -0.4, 0.5 + 0.004));
+  const GroundSample sample = sampleOf(ground, above.x(), above.y(), above.z(), 10.0);
+  EXPECT_NEAR(sample.gap, 0.004, 1e-14);
+  EXPECT_NEAR(norm(sample.nhat_W() - n), 0.0, 1e-15);
+}
+
+TEST(RoofGround, BridgeIsGroundForWhoIsOnItAndNotForWhoIsUnderIt) {
+  RoofGround ground(std::make_shared<PlaneGround>(GroundPlane()));
+  ground.add(boxPolyhedron(Vector3(1.0, 10.0, 0.1)), at(0.0, 0.0, 1.0));
+  EXPECT_NEAR(sampleOf(ground, 0.0, 0.0, 1.06, 1.1).gap, 0.01, 1e-15);
+  EXPECT_EQ(sampleOf(ground, 0.0, 0.0, 0.1, 0.15).gap, 0.1);
+  EXPECT_EQ(sampleOf(ground, 0.6, 0.0, 0.1, 1.1).gap, 0.1);
+}
+
+TEST(RoofGround, HighestOfManyIsTheGroundWhateverTheirOrder) {
+  RoofGround ground(std::make_shared<PlaneGround>(GroundPlane{Vector3::UnitZ(), -0.2}));
+  ground.add(boxPolyhedron(Vector3(4.0, 4.0, 1.0)), at(0.0, 0.0, -0.5));
+  ground.add(boxPolyhedron(Vector3(1.0, 1.0, 0.2)), at(0.0, 0.0, 0.1));
+  ground.add(boxPolyhedron(Vector3(2.0, 2.0, 0.2)), at(0.0, 0.0, 0.0));
+  EXPECT_NEAR(sampleOf(ground, 0.0, 0.0, 0.3, 1.0).gap, 0.1, 1e-15);
+  EXPECT_NEAR(sampleOf(ground, 0.7, 0.0, 0.3, 1.0).gap, 0.2, 1e-15);
+  EXPECT_NEAR(sampleOf(ground, 1.7, 0.0, 0.3, 1.0).gap, 0.3, 1e-15);
+  EXPECT_NEAR(sampleOf(ground, 2.7, 0.0, 0.3, 1.0).gap, 0.5, 1e-15);
+}
+
+TEST(RoofGround, WallIsNoGroundForAPointBesideItsFoot) {
+  RoofGround ground(std::make_shared<PlaneGround>(GroundPlane()));
+  ground.add(boxPolyhedron(Vector3(1.0, 10.0, 1.0)), at(0.0, 0.0, 0.5));
+  EXPECT_EQ(sampleOf(ground, 0.4999, 0.0, 0.003, 0.1, 0.1).gap, 0.003);
+  EXPECT_NEAR(sampleOf(ground, 0.4999, 0.0, 0.95, 1.1, 0.1).gap, -0.05, 1e-15);
+}
+
+TEST(RoofGround, TopOfARandomHullIsWhereAVerticalRayLeavesIt) {
+  const unsigned seed = 7;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  int hits = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<Vector3> points;
+    for (int i = 0; i < 20; ++i) {
+      points.emplace_back(normal(random), normal(random), normal(random));
+    }
+    const ConvexPolyhedron hull = convexHull(points, "hull");
+    const Pose X_WO = {rotationFromRpy({normal(random), normal(random), normal(random)}),
+                       Vector3(normal(random), normal(random), normal(random))};
+    RoofGround ground(nullptr);
+    ground.add(hull, X_WO);
+    for (int i = 0; i < 50; ++i) {
+      const double x = X_WO.p_AB.x() + normal(random);
+      const double y = X_WO.p_AB.y() + normal(random);
+      const GroundSample sample = sampleOf(ground, x, y, 100.0, 1000.0);
+      // The last height at which a point is inside every face, by halving from the lowest face.
+      double inside = -1e9;
+      double outside = 1e9;
+      for (int f = 0; f < hull.faceCount(); ++f) {
+        const Vector3 n = times(X_WO.R_AB, hull.face(f).normal);
+        const double z = (hull.face(f).offset + dot(n, X_WO.p_AB) - n.x() * x - n.y() * y) / n.z();
+        if (n.z() > 0.0) outside = std::min(outside, z);
+        if (n.z() < 0.0) inside = std::max(inside, z);
+      }
+      const bool is_over = outside >= inside;
+      EXPECT_EQ(sample.gap < kNoGround, is_over);
+      if (!is_over) continue;
+      ++hits;
+      EXPECT_NEAR(sample.gap, (100.0 - outside) * sample.nz, 1e-10);
+      // And the point on it lies on the surface.
+      const Vector3 p = inverseTransform(X_WO, Vector3(x, y, outside));
+      double most = -1e9;
+      for (int f = 0; f < hull.faceCount(); ++f) {
+        most = std::max(most, dot(hull.face(f).normal, p) - hull.face(f).offset);
+      }
+      EXPECT_NEAR(most, 0.0, 1e-12);
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
+}  // namespace
+}  // namespace hovercraft
