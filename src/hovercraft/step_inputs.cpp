@@ -8,13 +8,13 @@ RigidBodyState<Quaternion> integrationStep(Integrator integrator,
                                            const RigidBodyState<Quaternion>& y, const DrivenBody& f,
                                            double h) {
   const FloatingPointEnvironment environment;
-  return integrationStep<Quaternion, DrivenBody>(integrator, y, f, h);
+  return bodyStep<Quaternion>(integrator, y, f, h);
 }
 
 RigidBodyState<Matrix3> integrationStep(Integrator integrator, const RigidBodyState<Matrix3>& y,
                                         const DrivenBody& f, double h) {
   const FloatingPointEnvironment environment;
-  return integrationStep<Matrix3, DrivenBody>(integrator, y, f, h);
+  return bodyStep<Matrix3>(integrator, y, f, h);
 }
 
 }  // namespace hovercraft

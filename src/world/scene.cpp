@@ -81,9 +81,9 @@ void Scene::moveAll(const std::vector<BodyState>& states, const std::vector<Step
     if (end->index() != state->index()) *end = *state;
     if (const auto* start = std::get_if<RigidBodyState<Quaternion>>(&*state)) {
       *std::get_if<RigidBodyState<Quaternion>>(&*end) =
-          integrationStep<Quaternion>(rules_.integrator, *start, system, rules_.step);
+          bodyStep<Quaternion>(rules_.integrator, *start, system, rules_.step);
     } else {
-      *std::get_if<RigidBodyState<Matrix3>>(&*end) = integrationStep<Matrix3>(
+      *std::get_if<RigidBodyState<Matrix3>>(&*end) = bodyStep<Matrix3>(
           rules_.integrator, *std::get_if<RigidBodyState<Matrix3>>(&*state), system, rules_.step);
     }
     ++state, ++input, ++end;
@@ -109,8 +109,8 @@ BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInput
                              inputs.is_loaded || is_pressed ? &load : nullptr, fan_speeds};
   return std::visit(
       [&](const auto& start) -> BodyState {
-        return integrationStep<decltype(start.orientation)>(rules_.integrator, start, system,
-                                                            piece.to - piece.from);
+        return bodyStep<decltype(start.orientation)>(rules_.integrator, start, system,
+                                                     piece.to - piece.from);
       },
       state);
 }

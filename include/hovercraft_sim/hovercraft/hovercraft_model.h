@@ -24,6 +24,9 @@ struct HovercraftModel {
   std::shared_ptr<const GroundForces> ground_forces = nullptr;  // none: nothing of it is asked
   std::vector<Force> forces = {};  // of the other actuators, in a fixed order
 
+  /// Whether anything but engines, drag and weight acts on it.
+  bool hasMoreForces() const { return !forces.empty() || ground_forces != nullptr; }
+
   /// How a body moves, in B.
   template <class Orientation>
   BodyMotion motionInBody(const RigidBodyState<Orientation>& state,
@@ -35,27 +38,35 @@ struct HovercraftModel {
             transposeTimes(R_WB, v_WB - environment.wind_W)};
   }
 
-  /// dY/dt with the actuators at `thrusts` and the fans of the cushion at
-  /// `fan_speeds` (of a craft with ground forces), in the air of `environment`. The
-  /// wrench is built in B and rotated into W, its moment as its force (errata 18).
+  /// dY/dt with the actuators at `thrusts` and the fans of the cushion at `fan_speeds` (of a craft
+  /// with ground forces), in the air of `environment`. The wrench is built in B and rotated into W,
+  /// its moment as its force (errata 18).
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           const ActuatorArray<double>& thrusts,
                                           const Environment& environment,
                                           const FanSpeeds* fan_speeds = nullptr) const {
+    return derivativeWith<true>(state, thrusts, environment, fan_speeds);
+  }
+
+  /// The same. @param kHasMore false: of a body without hasMoreForces(), for less.
+  template <bool kHasMore, class Orientation>
+  StateDerivative<Orientation> derivativeWith(const RigidBodyState<Orientation>& state,
+                                              const ActuatorArray<double>& thrusts,
+                                              const Environment& environment,
+                                              const FanSpeeds* fan_speeds) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
     const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
     const Vector3 u_B = transposeTimes(R_WB, v_WB - environment.wind_W);
     Wrench wrench_B =
         engines.wrenchInBody({thrusts[0], thrusts[1], thrusts[2]}) + drag.wrenchInBody(u_B, w_WB_B);
-    // Out of the way of a craft without any, which keeps its numbers in registers.
-    if (__builtin_expect(static_cast<long>(!forces.empty()), 0L) != 0L) {
-      wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
-    }
-    if (ground_forces != nullptr) {
-      const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
-      wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment, *fan_speeds);
+    if constexpr (kHasMore) {
+      if (!forces.empty()) wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
+      if (ground_forces != nullptr) {
+        const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
+        wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment, *fan_speeds);
+      }
     }
     const Wrench wrench_W =
         mobility.project({times(R_WB, wrench_B.force) + weight_W, times(R_WB, wrench_B.torque)});

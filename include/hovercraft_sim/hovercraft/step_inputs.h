@@ -43,9 +43,14 @@ struct DrivenBody {
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
-    StateDerivative<Orientation> rate =
-        model.derivative(state, thrusts.at(stage), environment,
-                         fan_speeds == nullptr ? nullptr : &fan_speeds->at(stage));
+    return derivativeWith<true>(state, stage);
+  }
+  template <bool kHasMore, class Orientation>
+  StateDerivative<Orientation> derivativeWith(const RigidBodyState<Orientation>& state,
+                                              Stage stage) const {
+    StateDerivative<Orientation> rate = model.derivativeWith<kHasMore>(
+        state, thrusts.at(stage), environment,
+        kHasMore && fan_speeds != nullptr ? &fan_speeds->at(stage) : nullptr);
     if (load != nullptr) {
       const Matrix3 R_WB = rotationMatrix(state.orientation);
       const Wrench pushed =
@@ -61,6 +66,30 @@ struct DrivenBody {
     return model.mobility.twist(state);
   }
 };
+
+/// A body on which nothing but engines, drag and weight acts: the same system, for less.
+struct DrivenBodyOfEngines {
+  const DrivenBody& body;
+
+  template <class Orientation>
+  StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
+                                          Stage stage) const {
+    return body.derivativeWith<false>(state, stage);
+  }
+  template <class Orientation>
+  Twist twist(const RigidBodyState<Orientation>& state) const {
+    return body.twist(state);
+  }
+};
+
+/// integrationStep() of a body by whichever of the two it is; for the library.
+template <class Orientation>
+RigidBodyState<Orientation> bodyStep(Integrator integrator, const RigidBodyState<Orientation>& y,
+                                     const DrivenBody& f, double h) {
+  if (f.model.hasMoreForces()) return integrationStep<Orientation, DrivenBody>(integrator, y, f, h);
+  return integrationStep<Orientation, DrivenBodyOfEngines>(integrator, y, DrivenBodyOfEngines{f},
+                                                           h);
+}
 
 /// integrationStep() of a body, which Simulation makes: a function of the library, so that a
 /// program gets its bits whatever the program itself was compiled with.
