@@ -21,10 +21,13 @@ from ros_waiting import DEADLINE, wait_for_connections, wait_until
 class Helm:
     """teleop.py behind a pseudo terminal."""
 
+    count = 0
+
     def __init__(self, *arguments):
+        Helm.count += 1  # a name of its own: the master may still know the last one
         self.master, self.slave = pty.openpty()
         self.before = termios.tcgetattr(self.slave)
-        self.process = subprocess.Popen(['rosrun', 'hovercraft_sim', 'teleop.py', *arguments], stdin=self.slave,
+        self.process = subprocess.Popen(['rosrun', 'hovercraft_sim', 'teleop.py', f'__name:=helm_{Helm.count}', *arguments], stdin=self.slave,
                                         stdout=subprocess.DEVNULL, start_new_session=True)
 
     def type(self, keys):
