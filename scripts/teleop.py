@@ -143,13 +143,15 @@ def main():
     rospy.init_node('teleop', disable_signals=True)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
         signal.signal(number, stop)
-    with Terminal(sys.stdin.fileno()) as terminal:
-        output = Output()
-        try:
-            drive(terminal, output)
-        finally:
-            output.publish(0.0, 0.0)
-            rospy.signal_shutdown('the helm is left')
+    try:
+        with Terminal(sys.stdin.fileno()) as terminal:
+            output = Output()
+            try:
+                drive(terminal, output)
+            finally:
+                output.publish(0.0, 0.0)
+    finally:
+        rospy.signal_shutdown('the helm is left')
 
 
 if __name__ == '__main__':

@@ -21,10 +21,13 @@ from ros_waiting import DEADLINE, wait_for_connections, wait_until
 class Helm:
     """teleop.py behind a pseudo terminal."""
 
+    count = 0
+
     def __init__(self, *arguments):
+        Helm.count += 1  # a name of its own: the master may still know the last one
         self.master, self.slave = pty.openpty()
         self.before = termios.tcgetattr(self.slave)
-        self.process = subprocess.Popen(['rosrun', 'hovercraft_sim', 'teleop.py', *arguments], stdin=self.slave,
+        self.process = subprocess.Popen(['rosrun', 'hovercraft_sim', 'teleop.py', f'__name:=helm_{Helm.count}', *arguments], stdin=self.slave,
                                         stdout=subprocess.DEVNULL, start_new_session=True)
 
     def type(self, keys):
@@ -42,11 +45,16 @@ class Helm:
 
 
 class TeleopTest(unittest.TestCase):
-    def setUp(self):
-        self.heard = []
+    @classmethod
+    def setUpClass(cls):
+        cls.messages = {'cmd_vel': [], 'thrust': []}
+        cls.wires = [rospy.Subscriber(topic, kind, cls.messages[topic].append, queue_size=1000)
+                     for topic, kind in (('cmd_vel', Twist), ('thrust', ThrustCommand))]
 
-    def listen(self, topic, kind):
-        return rospy.Subscriber(topic, kind, self.heard.append, queue_size=1000)
+    def listen(self, topic):
+        """To what comes on a topic from now on."""
+        self.heard = self.messages[topic]
+        self.heard.clear()
 
     def drive(self, helm, keys, holds):
         """Types until a message holds."""
@@ -57,38 +65,35 @@ class TeleopTest(unittest.TestCase):
             time.sleep(0.05)
 
     def test_keys_become_cmd_vel_and_stop_when_they_end(self):
-        wire = self.listen('cmd_vel', Twist)
+        self.listen('cmd_vel')
         helm = Helm('_speed:=2.0', '_turn_rate:=1.5')
         wait_until(helm.is_raw, 'the terminal')
         self.drive(helm, 'w', lambda twist: twist.linear.x == 1.0)
         self.drive(helm, 'wa', lambda twist: twist.linear.x == 1.0 and twist.angular.z == 0.75)
         self.drive(helm, 'd', lambda twist: twist.angular.z == -0.75)
-        self.heard.clear()
+        del self.heard[:]
         wait_until(lambda: len(self.heard) > 2 and self.heard[-1] == Twist(), 'the stop after half a second')
         helm.type('q')
         self.assertTrue(helm.end())
-        wire.unregister()
 
     def test_space_stops_at_once(self):
-        wire = self.listen('cmd_vel', Twist)
+        self.listen('cmd_vel')
         helm = Helm('_dead_man:=1000')
         wait_until(helm.is_raw, 'the terminal')
         self.drive(helm, 'w', lambda twist: twist.linear.x > 0)
         helm.type(' ')
-        wait_until(lambda: self.heard[-1] == Twist(), 'the stop')
+        wait_until(lambda: self.heard[-1:] == [Twist()], 'the stop')
         helm.type('q')
         self.assertTrue(helm.end())
-        wire.unregister()
 
     def test_keys_become_thrusts(self):
-        wire = self.listen('thrust', ThrustCommand)
+        self.listen('thrust')
         helm = Helm('_mode:=thrust')
         wait_until(helm.is_raw, 'the terminal')
         self.drive(helm, 'wa', lambda thrust: thrust.rear == 2.25 and thrust.right == 0.75 and thrust.left == 0)
         self.drive(helm, 'd', lambda thrust: thrust.left == 0.75 and thrust.right == 0)
         helm.type('q')
         self.assertTrue(helm.end())
-        wire.unregister()
 
     def test_signals_leave_the_terminal_as_it_was(self):
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
@@ -104,9 +109,9 @@ class TeleopTest(unittest.TestCase):
         self.assertIn('the keys come from a terminal', done.stderr)
 
     def test_a_joystick_drives_while_its_button_is_held(self):
-        wire = self.listen('cmd_vel', Twist)
+        self.listen('cmd_vel')
         joystick = rospy.Publisher('joy', Joy, queue_size=1)
-        wait_for_connections(joystick, wire)
+        wait_for_connections(joystick, self.wires[0])
         held = [0, 0, 0, 0, 1]
         joystick.publish(Joy(axes=[0, 0.5, 0, -1.0], buttons=held))
         wait_until(lambda: self.heard, 'a command')
@@ -119,7 +124,6 @@ class TeleopTest(unittest.TestCase):
             joystick.publish(joy)
             wait_until(lambda: len(self.heard) > count, 'a command')
             self.assertEqual(self.heard[-1], Twist(), joy)
-        wire.unregister()
 
 
 if __name__ == '__main__':
