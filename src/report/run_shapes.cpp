@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include "hovercraft_sim/geometry/convex_hull.h"
@@ -71,11 +72,26 @@ RunShape placed(const Shape& shape, const Vector3& position, const Vector3& rpy,
   return made;
 }
 
-/// The air of each cell of a cushion, between its hem and the craft.
-void addSkirt(const hovercraft::CushionParameters& cushion, std::vector<RunShape>& shapes) {
-  for (const hovercraft::CushionCell& cell : cushion.cells) {
+/// The height of the lowest point of a craft without its skirt, in base_link, m.
+double bottomOf(const hovercraft::VehicleScenario& vehicle) {
+  if (vehicle.parts.empty()) {
+    return vehicle.mass_properties.p_HB.z() - 0.5 * equivalentBox(vehicle.mass_properties).z();
+  }
+  double bottom = std::numeric_limits<double>::infinity();
+  for (const Vector3& point : hovercraft::partPoints(vehicle.parts)) {
+    bottom = std::min(bottom, point.z());
+  }
+  return bottom;
+}
+
+/// The air of each cell of a cushion, from its hem up to the craft.
+void addSkirt(const hovercraft::VehicleScenario& vehicle, std::vector<RunShape>& shapes) {
+  const double bottom = bottomOf(vehicle);
+  for (const hovercraft::CushionCell& cell : vehicle.cushion->cells) {
     std::vector<Vector3> points;
-    const Vector3 up(0.0, 0.0, std::max(cell.height, kLeastSkirt));
+    double lowest = bottom;
+    for (const hovercraft::HemPoint& point : cell.hem) lowest = std::min(lowest, point.p_HK.z());
+    const Vector3 up(0.0, 0.0, std::max(bottom - lowest, kLeastSkirt));
     for (const hovercraft::HemPoint& point : cell.hem) {
       points.push_back(point.p_HK);
       points.emplace_back(point.p_HK + up);
@@ -104,7 +120,7 @@ std::vector<RunShape> shapesOf(const hovercraft::VehicleScenario& vehicle, bool 
     box.role = role;
     shapes.push_back(box);
   }
-  if (vehicle.cushion) addSkirt(*vehicle.cushion, shapes);
+  if (vehicle.cushion) addSkirt(vehicle, shapes);
   return shapes;
 }
 

@@ -3,7 +3,7 @@ import { element, fitCanvas } from './dom';
 import { headingOf, indexAt, poseAt } from './motion';
 import { cornersOf, outlineOf, place } from './outline';
 import type { Player } from './player';
-import { shadesOf } from './relief';
+import { levelShade, shadesOf } from './relief';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
 const MARGIN = 34;
@@ -130,9 +130,12 @@ export class PathView {
     const pixels = picture.getContext('2d');
     if (!pixels) return;
     const data = pixels.createImageData(columns, rows);
+    const level = 255 * levelShade;
     for (let i = 0; i < shades.length; ++i) {
       const above = (rows - 1 - Math.floor(i / columns)) * columns + (i % columns); // y is up
-      data.data.set([shades[i], shades[i], shades[i], 110], 4 * above);
+      const excess = shades[i] - level;
+      const tone = excess > 0 ? 255 : 0;
+      data.data.set([tone, tone, tone, Math.min(150, 6 * Math.abs(excess))], 4 * above);
     }
     pixels.putImageData(data, 0, 0);
     const [left, bottom] = this.toScreen(ground.x - spacing / 2, ground.y - spacing / 2);

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import type { Ground } from './data';
-import { reliefOf, shadesOf } from './relief';
+import { levelShade, reliefOf, shadesOf } from './relief';
 
 function ground(heights: number[]): Ground {
   return { height: 0, normal: [0, 0, 1], columns: 3, spacing: 0.5, x: -1, y: 2, heights: Float64Array.from(heights) };
@@ -22,6 +22,7 @@ test('a plane has none', () => {
 test('a slope that faces the light is brighter than one that turns away', () => {
   const [up = 0] = shadesOf(ground([0, 1, 2, 0, 1, 2]));
   const [level = 0] = shadesOf(ground([0, 0, 0, 0, 0, 0]));
+  assert.equal(level, Math.round(255 * levelShade));
   const [down = 0] = shadesOf(ground([2, 1, 0, 2, 1, 0]));
   assert.ok(up > level && level > down, `${up} ${level} ${down}`);
 });

@@ -20,6 +20,9 @@ export function reliefOf({ columns, spacing, x, y, heights }: Ground): { corners
   return { corners, triangles: Uint32Array.from(triangles) };
 }
 
+/** How bright level ground is, of 1. */
+export const levelShade = 1 / (Math.SQRT2 * 1.2);
+
 /** How bright each height is drawn from above, 0 to 255: lit from the north-west, so that hills are seen as hills. */
 export function shadesOf({ columns, spacing, heights }: Ground): Uint8ClampedArray {
   const rows = columns > 0 ? Math.floor(heights.length / columns) : 0;
@@ -30,7 +33,7 @@ export function shadesOf({ columns, spacing, heights }: Ground): Uint8ClampedArr
     for (let column = 0; column < columns; ++column) {
       const east = (at(column + 1, row) - at(column - 1, row)) / (2 * spacing);
       const north = (at(column, row + 1) - at(column, row - 1)) / (2 * spacing);
-      const light = (east - north + 2) / (2 * Math.hypot(east, north, 1) * Math.SQRT2 * 1.2);
+      const light = ((east - north + 2) / (2 * Math.hypot(east, north, 1))) * levelShade;
       shades[row * columns + column] = 255 * Math.min(1, Math.max(0, light));
     }
   }

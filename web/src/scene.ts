@@ -32,7 +32,7 @@ import { indexAt, poseAt } from './motion';
 import { cornersOf } from './outline';
 import { roundStep } from './path_view';
 import type { Player } from './player';
-import { reliefOf } from './relief';
+import { levelShade, reliefOf, shadesOf } from './relief';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
 const CONTACT_SECONDS = 0.7; // for which a contact is shown
@@ -95,9 +95,15 @@ function reliefMesh(ground: Ground, colour: string, lines: string): Object3D {
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(corners, 3));
   geometry.setIndex(new BufferAttribute(triangles, 1));
-  geometry.computeVertexNormals();
-  const mesh = new Mesh(geometry, new MeshLambertMaterial({ color: new Color(colour).lerp(new Color(lines), 0.4), side: DoubleSide }));
-  return mesh;
+  const light = new Color(colour);
+  const dark = new Color(lines);
+  const colours = new Float32Array(corners.length);
+  // Twice as far from level as they are: slopes that matter to a craft are gentle.
+  shadesOf(ground).forEach((shade, i) => {
+    light.clone().lerp(dark, Math.min(1, Math.max(0, 0.3 + 4 * (levelShade - shade / 255)))).toArray(colours, 3 * i);
+  });
+  geometry.setAttribute('color', new BufferAttribute(colours, 3));
+  return new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
 }
 
 interface Thrust {
