@@ -69,7 +69,7 @@ class Cushion::SampledProbe {
     return samples_[point].gap;
   }
   Vector3 normalAtPoint(std::size_t point) const {
-    return transposeTimes(R_WB_, samples_[point].nhat_W());
+    return transposeTimes(R_WB_, samples_[point].normal());
   }
   Vector3 normalAtCell(std::size_t cell) const { return normalAtPoint(point_count_ + cell); }
 

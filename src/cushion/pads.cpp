@@ -32,7 +32,7 @@ Pads::Pads(const std::vector<Vector3>& vertices_B, double weight, const PadParam
 Wrench Pads::wrenchOf(const Vector3& p_B, const BodyMotion& motion,
                       const GroundSample& sample) const {
   if (!(sample.gap < 0.0)) return {};
-  const Vector3 nhat_B = transposeTimes(motion.R_WB, sample.nhat_W());
+  const Vector3 nhat_B = transposeTimes(motion.R_WB, sample.normal());
   const Vector3 force = spring_.force(-stiffness_ * sample.gap, nhat_B, motion.velocityAt(p_B));
   return {force, cross(p_B, force)};
 }

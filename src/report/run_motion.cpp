@@ -97,30 +97,42 @@ bool isOneOf(const BodyTopics& topics, const TopicSamples* samples) {
   return samples == topics.state || samples == topics.odom || samples == topics.pose;
 }
 
-}  // namespace
-
-std::vector<BodyTopics> bodiesIn(const RecordedTopics& recorded,
-                                 const hovercraft::Scenario* scenario) {
+/// Those of the scenario that the recording tells of.
+std::vector<BodyTopics> bodiesOf(const RecordedTopics& recorded,
+                                 const hovercraft::Scenario& scenario) {
   std::vector<BodyTopics> bodies;
-  if (scenario != nullptr) {
-    for (const auto& craft : scenario->vehicles) bodies.push_back(topicsOf(recorded, craft.name));
-    if (scenario->world) {
-      for (const auto& body : scenario->world->bodies) {
-        bodies.push_back(topicsOf(recorded, body.name));
-      }
-    }
-    bodies.erase(std::remove_if(bodies.begin(), bodies.end(),
-                                [](const BodyTopics& body) { return !tellsWhere(body); }),
-                 bodies.end());
-    if (!bodies.empty()) return bodies;
+  const auto add = [&](const std::string& name) {
+    const BodyTopics body = topicsOf(recorded, name);
+    if (tellsWhere(body)) bodies.push_back(body);
+  };
+  for (const auto& craft : scenario.vehicles) add(craft.name);
+  if (scenario.world) {
+    for (const auto& body : scenario.world->bodies) add(body.name);
   }
+  return bodies;
+}
+
+/// What has the topics of a body in a namespace of its own.
+std::vector<BodyTopics> bodiesByNamespace(const RecordedTopics& recorded) {
   std::set<std::string> spaces;
   for (const auto& [topic, samples] : recorded.topics) spaces.insert(namespaceOf(topic));
+  std::vector<BodyTopics> bodies;
   for (const std::string& space : spaces) {
     BodyTopics body = topicsOf(recorded, space);
     if (body.name.empty()) body.name = "the body";
     if (tellsWhere(body)) bodies.push_back(body);
   }
+  return bodies;
+}
+
+}  // namespace
+
+std::vector<BodyTopics> bodiesIn(const RecordedTopics& recorded,
+                                 const hovercraft::Scenario* scenario) {
+  std::vector<BodyTopics> bodies;
+  if (scenario != nullptr) bodies = bodiesOf(recorded, *scenario);
+  if (!bodies.empty()) return bodies;
+  bodies = bodiesByNamespace(recorded);
   for (const auto& [topic, samples] : recorded.topics) {
     const auto is_known = [&, each = &samples](const BodyTopics& b) { return isOneOf(b, each); };
     if (samples.size() == 0 || !posePathsOf(samples.type)) continue;
@@ -133,11 +145,33 @@ std::vector<BodyTopics> bodiesIn(const RecordedTopics& recorded,
   return bodies;
 }
 
+namespace {
+
+/// `odom` may be renamed, or a noisy one in its place.
+const TopicSamples& poseSamplesOf(const BodyTopics& topics) {
+  if (topics.pose != nullptr) return *topics.pose;
+  return topics.odom != nullptr ? *topics.odom : *topics.state;
+}
+
+bool canBeDrawn(const Vector3& position, const Quaternion& orientation) {
+  return position.allFinite() && position.cwiseAbs().maxCoeff() <= kFarthestDrawn &&
+         std::isfinite(norm(orientation));
+}
+
+void push(RunMotion& motion, std::int64_t time_ns, const Vector3& position,
+          const Quaternion& orientation) {
+  motion.times_ns.push_back(time_ns);
+  for (std::size_t k = 0; k < 3; ++k) {
+    motion.position[k].push_back(position[static_cast<Eigen::Index>(k)]);
+    motion.orientation[k].push_back(orientation.v[static_cast<Eigen::Index>(k)]);
+  }
+  motion.orientation[3].push_back(orientation.s);
+}
+
+}  // namespace
+
 RunMotion motionOf(const BodyTopics& topics, const Vector3& p_HB, std::int64_t zero_ns) {
-  // `odom` may be renamed, or a noisy one in its place.
-  const TopicSamples* samples = topics.pose != nullptr   ? topics.pose
-                                : topics.odom != nullptr ? topics.odom
-                                                         : topics.state;
+  const TopicSamples* samples = &poseSamplesOf(topics);
   RunMotion motion;
   motion.source = samples->topic;
   const auto paths = posePathsOf(samples->type);
@@ -150,18 +184,11 @@ RunMotion motionOf(const BodyTopics& topics, const Vector3& p_HB, std::int64_t z
     if (!motion.times_ns.empty() && time_ns <= motion.times_ns.back()) continue;
     Vector3 position = at(positions, i);
     Quaternion orientation = at(orientations, i);
-    const double length = norm(orientation);
-    const bool is_drawn = position.cwiseAbs().maxCoeff() <= kFarthestDrawn;
-    if (!position.allFinite() || !is_drawn || !std::isfinite(length)) continue;
+    if (!canBeDrawn(position, orientation)) continue;
     // A position without an orientation is still a way.
-    orientation = length > 0.0 ? normalized(orientation) : Quaternion::identity();
+    orientation = norm(orientation) > 0.0 ? normalized(orientation) : Quaternion::identity();
     if (samples == topics.state) position -= rotate(orientation, p_HB);
-    motion.times_ns.push_back(time_ns);
-    for (std::size_t k = 0; k < 3; ++k) {
-      motion.position[k].push_back(position[static_cast<Eigen::Index>(k)]);
-      motion.orientation[k].push_back(orientation.v[static_cast<Eigen::Index>(k)]);
-    }
-    motion.orientation[3].push_back(orientation.s);
+    push(motion, time_ns, position, orientation);
   }
   return motion;
 }

@@ -209,6 +209,7 @@ std::vector<SensorMessages> sensorMessages(const hovercraft::Scenario& scenario,
                                            const TfFrames& frames,
                                            const std::string& odometry_topic) {
   std::vector<SensorMessages> messages;
+  messages.reserve(scenario.vehicles.size());
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     messages.emplace_back(scenario, vehicle, frames, odometry_topic);
   }

@@ -172,22 +172,9 @@ std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
   return std::make_unique<hovercraft::StatesCsvWriter>(path, scenario);
 }
 
-hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages) {
-  checkRequest(request);
-  Scenario scenario = loadScenarioFile(request.scenario, {"--set", request.sets});
-  if (request.hold) {
-    for (hovercraft::VehicleScenario& vehicle : scenario.vehicles) {
-      for (hovercraft::EngineParameters& engine : vehicle.engines) engine.timeout_ns = 0;
-      for (auto& actuator : vehicle.actuators) actuator.motion.timeout_ns = 0;
-    }
-  }
-  hovercraft::RunPlan plan;
-  plan.every = request.every;
-  plan.last_tick = request.duration.empty() ? ticksOfCommands(request.commands, scenario)
-                                            : ticksOfDuration(request.duration, scenario);
-  const std::unique_ptr<hovercraft::CommandSource> commands =
-      request.commands.empty() ? std::make_unique<hovercraft::NoCommands>()
-                               : openCommands(request.commands, scenario);
+/// The output and the CSV files beside it, each around those before.
+std::unique_ptr<hovercraft::StateSink> openOutputs(const SimulateRequest& request,
+                                                   const Scenario& scenario) {
   std::unique_ptr<hovercraft::StateSink> output = openOutput(request.output, scenario);
   if (!request.contacts.empty()) {
     output = std::make_unique<hovercraft::ContactsCsvWriter>(request.contacts, std::move(output));
@@ -203,6 +190,29 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
                                  request.contacts, request.cushion},
         std::move(output));
   }
+  return output;
+}
+
+/// No engine and no other actuator times out.
+void holdCommands(Scenario& scenario) {
+  for (hovercraft::VehicleScenario& vehicle : scenario.vehicles) {
+    for (hovercraft::EngineParameters& engine : vehicle.engines) engine.timeout_ns = 0;
+    for (auto& actuator : vehicle.actuators) actuator.motion.timeout_ns = 0;
+  }
+}
+
+hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& messages) {
+  checkRequest(request);
+  Scenario scenario = loadScenarioFile(request.scenario, {"--set", request.sets});
+  if (request.hold) holdCommands(scenario);
+  hovercraft::RunPlan plan;
+  plan.every = request.every;
+  plan.last_tick = request.duration.empty() ? ticksOfCommands(request.commands, scenario)
+                                            : ticksOfDuration(request.duration, scenario);
+  const std::unique_ptr<hovercraft::CommandSource> commands =
+      request.commands.empty() ? std::make_unique<hovercraft::NoCommands>()
+                               : openCommands(request.commands, scenario);
+  std::unique_ptr<hovercraft::StateSink> output = openOutputs(request, scenario);
   hovercraft::Simulation simulation(scenario);
 
   std::optional<ProgressBar> bar;

@@ -30,7 +30,7 @@ ImuModel::ImuModel(const ImuParameters& parameters, const SensorMount& mount)
       accelerometer_(parameters.accelerometer, mount.period, mount.channels[1]),
       gravity_W_(parameters.gravity_W),
       R_BS_(mount.R_BS),
-      p_BS_(mount.p_BS()),
+      p_BS_(mount.positionInBody()),
       step_(mount.step) {}
 
 void ImuModel::start(const SensedInstant& instant, double* memory) const {
@@ -74,7 +74,7 @@ GnssModel::GnssModel(const GnssParameters& parameters, const SensorMount& mount)
     : position_(parameters.position, mount.period, mount.channels[0]),
       velocity_(parameters.velocity, mount.period, mount.channels[1]),
       origin_(parameters.latitude_deg, parameters.longitude_deg, parameters.altitude),
-      p_BS_(mount.p_BS()) {
+      p_BS_(mount.positionInBody()) {
   const double latitude = parameters.latitude_deg * kDegree;
   const double sine = exactSin(latitude);
   const double w2 = 1.0 - kSquaredEccentricity * sine * sine;

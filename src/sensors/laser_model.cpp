@@ -25,7 +25,7 @@ LaserModel::LaserModel(const LaserParameters& parameters, const SensorMount& mou
       beam_stream_(streamOf(mount.channels[1])),
       range_max_(parameters.range_max),
       R_BS_(mount.R_BS),
-      p_BS_(mount.p_BS()),
+      p_BS_(mount.positionInBody()),
       body_(site.body),
       targets_(*site.targets),
       ground_(site.ground) {

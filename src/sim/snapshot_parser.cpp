@@ -128,7 +128,7 @@ void parseVehicle(const ConfigReader& reader, const Scenario& scenario,
   if (reader.has("actuators")) requireCount(reader, "actuators", vehicle.actuators.size());
   for (const ActuatorScenario& actuator : vehicle.actuators) {
     const ConfigReader entry = reader.map("actuators").map(actuator.name);
-    engines.push_back(parseEngine(entry, actuator.motion, state.tick));
+    engines.append(parseEngine(entry, actuator.motion, state.tick));
   }
   state.engines.push_back(engines);
 }

@@ -120,7 +120,7 @@ ConvexPolyhedron hullOf(const VehicleScenario& vehicle) {
 
 ActuatorArray<EngineParameters> parametersOf(const VehicleScenario& vehicle) {
   ActuatorArray<EngineParameters> parameters(vehicle.engines);
-  for (const ActuatorScenario& actuator : vehicle.actuators) parameters.push_back(actuator.motion);
+  for (const ActuatorScenario& actuator : vehicle.actuators) parameters.append(actuator.motion);
   return parameters;
 }
 
@@ -131,7 +131,7 @@ std::string actuatorName(const VehicleScenario& vehicle, std::size_t id) {
 EngineStates initialActuators(const VehicleScenario& vehicle) {
   EngineStates states;
   for (const ActuatorScenario& actuator : vehicle.actuators) {
-    states.push_back({actuator.initial, actuator.initial, EngineState::kNever});
+    states.append({actuator.initial, actuator.initial, EngineState::kNever});
   }
   return states;
 }
@@ -142,8 +142,12 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
   const Mobility mobility = scenario.model == BodyModel::kPlanar
                                 ? Mobility::planar(body.mass, body.I_BBo_B)
                                 : Mobility::spatial(body.mass, body.I_BBo_B);
-  return {mobility, EngineGeometry(vehicle.engines, body.p_HB), vehicle.drag,
-          body.mass * scenario.gravity, groundForcesOf(scenario, vehicle), forcesOf(vehicle)};
+  return {mobility,
+          EngineGeometry(vehicle.engines, body.p_HB),
+          vehicle.drag,
+          body.mass * scenario.gravity,
+          groundForcesOf(scenario, vehicle),
+          forcesOf(vehicle)};
 }
 
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,

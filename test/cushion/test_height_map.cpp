@@ -39,7 +39,7 @@ TEST(HeightMapGround, IsBilinearWithTheNormalOfItsSurface) {
     const double z = 3.0 * share(random);
     const GroundSample sample = sampleOf(ground, x, y, z);
     const Vector3 up(-(0.1 + 0.4 * y), -(-0.2 + 0.4 * x), 1.0);
-    EXPECT_NEAR(norm(sample.nhat_W() - up / norm(up)), 0.0, 1e-14);
+    EXPECT_NEAR(norm(sample.normal() - up / norm(up)), 0.0, 1e-14);
     EXPECT_NEAR(sample.gap, (z - warped(x, y)) / norm(up), 1e-14);
   }
 }

@@ -201,7 +201,7 @@ RigidBodyState<Quaternion> flown(Integrator integrator, int steps) {
   lagging.min_thrust = -200.0;
   lagging.max_thrust = 200.0;
   lagging.time_constant = 0.15;
-  for (int i = 0; i < 3; ++i) parameters.push_back(lagging);
+  for (int i = 0; i < 3; ++i) parameters.append(lagging);
   const EngineDynamics dynamics(parameters, step_ns);
   EngineStates states;
   states.resize(parameters.size());

@@ -67,8 +67,10 @@ class Unpacker {
 };
 
 TEST(PackedNumbers, AValueIsOffByHalfAStepAtMost) {
-  std::vector<double> values;
-  for (int i = 0; i < 1000; ++i) values.push_back(3.0 * std::sin(0.02 * i) - 1.0);
+  std::vector<double> values(1000);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = 3.0 * std::sin(0.02 * static_cast<double>(i)) - 1.0;
+  }
   PackedNumbers packed;
   packed.add({1.0, 2.0, 3.0}, 16);
   const PackedColumn column = packed.add(values, 16);
@@ -112,6 +114,7 @@ TEST(PackedNumbers, ValuesThatNobodyDrawsAreGapsAndHurtNoOthers) {
 
 TEST(PackedNumbers, TimesAreKeptToTheNanosecondAndEvenOnesTakeNothing) {
   std::vector<std::int64_t> times_ns;
+  times_ns.reserve(60000);
   for (std::int64_t i = 0; i < 60000; ++i) times_ns.push_back(1'000'000 + 10'000'000 * i);
   PackedNumbers packed;
   const PackedColumn even = packed.addTimes(times_ns);

@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <filesystem>
+#include <fmt/format.h>
 #include <set>
 #include <string>
 #include <yaml-cpp/yaml.h>
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/StateFormat1.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
@@ -63,9 +65,9 @@ TEST(OlderRecordings, RosbagFixMakesThemRecordingsOfToday) {
   const auto devel = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "../..";
   for (const char* name : {"format_1_contact", "format_1_matrix"}) {
     const std::string fixed = folder.file(std::string(name) + ".bag");
-    const std::string command = "bash -c '. " + devel.string() + "/setup.bash && rosbag fix " +
-                                kFolder + name + ".bag " + fixed +
-                                " migration/format_1.bmr > /dev/null'";
+    const std::string command = fmt::format(
+        "bash -c '. {}/setup.bash && rosbag fix {}{}.bag {} migration/format_1.bmr > /dev/null'",
+        devel.string(), kFolder, name, fixed);
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     std::set<std::string> sums;
     {

@@ -79,7 +79,7 @@ TEST(OneMeaning, OfEveryShippedScenario) {
   for (const auto& entry : std::filesystem::directory_iterator("config")) {
     if (entry.path().extension() != ".yaml") continue;
     expectOneMeaning(entry.path().string(), ";");
-    expectOneMeaning(entry.path().string(), "step_size=0.002; gravity=[0, 0, -1]");
+    expectOneMeaning(entry.path().string(), "step_size=0.0005; gravity=[0, 0, -1]");
     ++count;
   }
   EXPECT_GE(count, 7);

@@ -126,21 +126,21 @@ TEST_F(RecordedRun, AStateThatCameAfterAnEventOfItsTickIsComparedAfterIt) {
 }
 
 TEST_F(RecordedRun, WhatAnotherVersionKnewMoreOfACraftIsFound) {
-  const auto differenceWith = [this](const std::function<void(hovercraft_sim::State&)>& change) {
+  const auto difference_with = [this](const std::function<void(hovercraft_sim::State&)>& change) {
     Recording changed = recording_;
     change(changed.states[changed.states.size() / 2].state);
     return replay(changed, scenario_, true).difference;
   };
-  EXPECT_FALSE(differenceWith([](auto&) {}));
-  const auto actuators = differenceWith([](auto& state) { state.actuators = {1.0, 2.0}; });
+  EXPECT_FALSE(difference_with([](auto&) {}));
+  const auto actuators = difference_with([](auto& state) { state.actuators = {1.0, 2.0}; });
   ASSERT_TRUE(actuators);
   EXPECT_EQ(actuators->field, "actuators");
   EXPECT_EQ(actuators->recorded, "2 numbers");
   EXPECT_EQ(actuators->replayed, "0 numbers");
-  const auto extra = differenceWith([](auto& state) { state.extra = {1.0}; });
+  const auto extra = difference_with([](auto& state) { state.extra = {1.0}; });
   ASSERT_TRUE(extra);
   EXPECT_EQ(extra->field, "extra");
-  const auto sensors = differenceWith([](auto& state) { state.sensor_hash = 10; });
+  const auto sensors = difference_with([](auto& state) { state.sensor_hash = 10; });
   ASSERT_TRUE(sensors);
   EXPECT_EQ(sensors->field, "sensor_hash");
   EXPECT_EQ(sensors->recorded, "000000000000000a");

@@ -41,7 +41,7 @@ TEST(RoofGround, RampHasItsSlopesGapAndNormal) {
   const Vector3 above = Vector3(3.0, 1.0, 0.0) + times(R, Vector3(0.7, -0.4, 0.5 + 0.004));
   const GroundSample sample = sampleOf(ground, above.x(), above.y(), above.z(), 10.0);
   EXPECT_NEAR(sample.gap, 0.004, 1e-14);
-  EXPECT_NEAR(norm(sample.nhat_W() - n), 0.0, 1e-15);
+  EXPECT_NEAR(norm(sample.normal() - n), 0.0, 1e-15);
 }
 
 TEST(RoofGround, BridgeIsGroundForWhoIsOnItAndNotForWhoIsUnderIt) {

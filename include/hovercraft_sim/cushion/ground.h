@@ -14,7 +14,7 @@ struct GroundSample {
   double gap;         // m, height of the point above it, along its normal; negative: below it
   double nx, ny, nz;  // its normal in W, unit, nz > 0
 
-  Vector3 nhat_W() const { return {nx, ny, nz}; }
+  Vector3 normal() const { return {nx, ny, nz}; }
 };
 constexpr GroundSample kOverNothing = {kNoGround, 0.0, 0.0, 1.0};
 

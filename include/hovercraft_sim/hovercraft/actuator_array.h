@@ -45,7 +45,7 @@ class ActuatorArray {
     for (std::size_t i = size_; i < checked(size); ++i) values_[i] = T();
     size_ = size;
   }
-  void push_back(const T& value) {
+  void append(const T& value) {
     size_ = checked(size_ + 1);
     values_[size_ - 1] = value;
   }

@@ -20,7 +20,7 @@ struct SensorMount {
   double period = 0.0;                // s, from one sample to the next
   std::vector<std::string> channels;  // as channelNames()
 
-  Vector3 p_BS() const { return p_HS - p_HB; }
+  Vector3 positionInBody() const { return p_HS - p_HB; }
 };
 
 /// Doubles of a memory, read and written as vectors.
