@@ -163,17 +163,17 @@ TEST(RudderForce, OnTheSpotItHasTheStreamOfItsFan) {
 // Without thrust V_d = V; the far wake of momentum theory: V_d (V_d - V) = T/(rho A).
 TEST(RudderForce, TheStreamIsThatOfMomentumTheory) {
   const double delta = 0.1;
-  const auto streamSpeed = [&](double thrust, double speed) {
+  const auto stream_speed = [&](double thrust, double speed) {
     const double lift = rudder().wrench(steering(thrust, delta, speed).inputs()).force.y();
     return std::sqrt(lift / (0.5 * kDensity * kArea * kSlope * delta));
   };
-  EXPECT_NEAR(streamSpeed(0.0, 6.0), 6.0, 1e-12);
+  EXPECT_NEAR(stream_speed(0.0, 6.0), 6.0, 1e-12);
   for (const double speed : {0.0, 1.0, 8.0, -2.0}) {
-    const double v = streamSpeed(5.0, speed);
+    const double v = stream_speed(5.0, speed);
     EXPECT_NEAR(v * (v - speed), 5.0 / (kDensity * kDisc), 1e-10) << speed;
   }
   EXPECT_EQ(rudder().wrench(steering(0.0, delta, -3.0).inputs()).force.y(), 0.0);
-  EXPECT_NEAR(streamSpeed(-5.0, 6.0), 6.0, 1e-12);  // a fan that blows forwards gives no stream
+  EXPECT_NEAR(stream_speed(-5.0, 6.0), 6.0, 1e-12);  // a fan that blows forwards gives no stream
 }
 
 TEST(RudderForce, MirroredAnglesGiveMirroredForces) {

@@ -148,8 +148,8 @@ RigidBodyState<Quaternion> spinUp(Integrator integrator, int steps) {
     const ThrustCourse thrusts = dynamics.course(states, tick);
     const DrivenBody system = {model, thrusts, environment};
     body = integrationStep(integrator, body, system, toSeconds(step_ns));
-    for (int i = 0; i < kEngineCount; ++i) {
-      states[static_cast<std::size_t>(i)].thrust = thrusts.end[i];
+    for (std::size_t i = 0; i < kEngineCount; ++i) {
+      states[i].thrust = thrusts.end[i];
     }
   }
   return body;

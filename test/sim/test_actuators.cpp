@@ -223,18 +223,18 @@ TEST(Actuators, GoThroughASnapshotToTheLastBit) {
 TEST(Actuators, EachOfTheirFieldsIsInTheHash) {
   const Simulation simulation = underWay();
   for (std::size_t id = kBow; id <= kScrew; ++id) {
-    const auto hashWith = [&](auto change) {
+    const auto hash_with = [&](auto change) {
       SimulationState state = simulation.state();
       change(state.engines[0][id]);
       Simulation changed(simulation.scenario());
       changed.restore(state);
       return changed.hash();
     };
-    EXPECT_NE(hashWith([](EngineState& s) { s.thrust = std::nextafter(s.thrust, 1e9); }),
+    EXPECT_NE(hash_with([](EngineState& s) { s.thrust = std::nextafter(s.thrust, 1e9); }),
               simulation.hash());
-    EXPECT_NE(hashWith([](EngineState& s) { s.commanded = std::nextafter(s.commanded, 1e9); }),
+    EXPECT_NE(hash_with([](EngineState& s) { s.commanded = std::nextafter(s.commanded, 1e9); }),
               simulation.hash());
-    EXPECT_NE(hashWith([](EngineState& s) { ++s.command_tick; }), simulation.hash());
+    EXPECT_NE(hash_with([](EngineState& s) { ++s.command_tick; }), simulation.hash());
   }
 }
 

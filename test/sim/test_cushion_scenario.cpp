@@ -247,15 +247,15 @@ TEST(GroundScenario, HeightMapLiesAsMapServerHasIt) {
                ", resolution: 0.5, origin: [1, -2, 0], z_min: -1, z_max: 4}\n");
   const Scenario scenario = parsed(text);
   const auto ground = bareGroundOf(scenario);
-  const auto heightAt = [&](double x, double y) {
+  const auto height_at = [&](double x, double y) {
     const GroundPoint point = {x, y, 10.0};
     GroundSample sample;
     ground->sample({&point, 1, 20.0, kNoGround}, &sample);
     return 10.0 - sample.gap / sample.nz;
   };
-  EXPECT_NEAR(heightAt(1.25, -1.75), 3.0, 1e-14);  // 0xcc, below on the left
-  EXPECT_NEAR(heightAt(1.75, -1.75), 4.0, 1e-14);
-  EXPECT_NEAR(heightAt(1.25, -0.75), -1.0, 1e-14);
+  EXPECT_NEAR(height_at(1.25, -1.75), 3.0, 1e-14);  // 0xcc, below on the left
+  EXPECT_NEAR(height_at(1.75, -1.75), 4.0, 1e-14);
+  EXPECT_NEAR(height_at(1.25, -0.75), -1.0, 1e-14);
   // The text needs no file.
   const std::string yaml = toYaml(scenario);
   EXPECT_EQ(yaml.find("map.pgm"), std::string::npos);

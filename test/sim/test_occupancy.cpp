@@ -29,7 +29,10 @@ std::string rows(const OccupancyMap& map) {
   std::string text;
   for (std::int32_t y = map.height; y-- > 0;) {
     for (std::int32_t x = 0; x < map.width; ++x) {
-      text += map.cells[static_cast<std::size_t>(y * map.width + x)] == 100 ? '#' : '.';
+      text += map.cells.at(static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                           static_cast<std::size_t>(x)) == 100
+                  ? '#'
+                  : '.';
     }
     text += '\n';
   }

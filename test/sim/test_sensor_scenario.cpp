@@ -67,15 +67,15 @@ TEST(SensorScenario, EveryKeyOfEveryKindIsRead) {
 // The ideal cushion of the planar model carries the weight: an IMU on it feels that.
 TEST(SensorScenario, AnImuHasTheGravityOfTheScenarioOrTheStandardOne) {
   const std::string imu = "    sensors: {imu: {kind: imu, rate: 100}}\n";
-  const auto gravityOf = [](const std::string& text) {
+  const auto gravity_of = [](const std::string& text) {
     const Scenario scenario = testing::scenarioOf(text);
     return std::get<ImuParameters>(scenario.vehicles[0].sensors[0].model).gravity_W;
   };
-  EXPECT_EQ(gravityOf(scenarioWith(imu)), Vector3(0.0, 0.0, -9.80665));
-  EXPECT_EQ(gravityOf(scenarioWith(imu, "planar", "gravity: [0.5, 0, -9.81]\n")),
+  EXPECT_EQ(gravity_of(scenarioWith(imu)), Vector3(0.0, 0.0, -9.80665));
+  EXPECT_EQ(gravity_of(scenarioWith(imu, "planar", "gravity: [0.5, 0, -9.81]\n")),
             Vector3(0.5, 0.0, -9.81));
-  EXPECT_EQ(gravityOf(scenarioWith(imu, "spatial")), Vector3(0.0, 0.0, 0.0));
-  EXPECT_EQ(gravityOf(withSensor("kind: imu, rate: 100, gravity: [0, 0, -1.62]")),
+  EXPECT_EQ(gravity_of(scenarioWith(imu, "spatial")), Vector3(0.0, 0.0, 0.0));
+  EXPECT_EQ(gravity_of(withSensor("kind: imu, rate: 100, gravity: [0, 0, -1.62]")),
             Vector3(0.0, 0.0, -1.62));
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -70,6 +71,40 @@ TEST(RoofGround, WallIsNoGroundForAPointBesideItsFoot) {
   EXPECT_NEAR(sampleOf(ground, 0.4999, 0.0, 0.95, 1.1, 0.1).gap, -0.05, 1e-15);
 }
 
+ConvexPolyhedron randomHull(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  std::vector<Vector3> points(20);
+  for (Vector3& point : points) {
+    for (Eigen::Index i = 0; i < 3; ++i) point[i] = normal(random);
+  }
+  return convexHull(points, "hull");
+}
+
+/// The height at which the vertical line through (x, y) leaves the hull, the lowest of its upper
+/// faces, if it meets the hull.
+std::optional<double> topOf(const ConvexPolyhedron& hull, const Pose& X_WO, double x, double y) {
+  double enters = -1e9;
+  double leaves = 1e9;
+  for (int f = 0; f < hull.faceCount(); ++f) {
+    const Vector3 n = times(X_WO.R_AB, hull.face(f).normal);
+    const double z = (hull.face(f).offset + dot(n, X_WO.p_AB) - n.x() * x - n.y() * y) / n.z();
+    if (n.z() > 0.0) leaves = std::min(leaves, z);
+    if (n.z() < 0.0) enters = std::max(enters, z);
+  }
+  if (leaves < enters) return std::nullopt;
+  return leaves;
+}
+
+/// How far a point of W is outside the hull; 0 on its surface.
+double beyond(const ConvexPolyhedron& hull, const Pose& X_WO, const Vector3& p_W) {
+  const Vector3 p = inverseTransform(X_WO, p_W);
+  double most = -1e9;
+  for (int f = 0; f < hull.faceCount(); ++f) {
+    most = std::max(most, dot(hull.face(f).normal, p) - hull.face(f).offset);
+  }
+  return most;
+}
+
 TEST(RoofGround, TopOfARandomHullIsWhereAVerticalRayLeavesIt) {
   const unsigned seed = 7;
   SCOPED_TRACE(seed);
@@ -77,11 +112,7 @@ TEST(RoofGround, TopOfARandomHullIsWhereAVerticalRayLeavesIt) {
   std::normal_distribution<double> normal;
   int hits = 0;
   for (int trial = 0; trial < 50; ++trial) {
-    std::vector<Vector3> points;
-    for (int i = 0; i < 20; ++i) {
-      points.emplace_back(normal(random), normal(random), normal(random));
-    }
-    const ConvexPolyhedron hull = convexHull(points, "hull");
+    const ConvexPolyhedron hull = randomHull(random);
     const Pose X_WO = {rotationFromRpy({normal(random), normal(random), normal(random)}),
                        Vector3(normal(random), normal(random), normal(random))};
     RoofGround ground(nullptr);
@@ -90,27 +121,12 @@ TEST(RoofGround, TopOfARandomHullIsWhereAVerticalRayLeavesIt) {
       const double x = X_WO.p_AB.x() + normal(random);
       const double y = X_WO.p_AB.y() + normal(random);
       const GroundSample sample = sampleOf(ground, x, y, 100.0, 1000.0);
-      // The last height at which a point is inside every face, by halving from the lowest face.
-      double inside = -1e9;
-      double outside = 1e9;
-      for (int f = 0; f < hull.faceCount(); ++f) {
-        const Vector3 n = times(X_WO.R_AB, hull.face(f).normal);
-        const double z = (hull.face(f).offset + dot(n, X_WO.p_AB) - n.x() * x - n.y() * y) / n.z();
-        if (n.z() > 0.0) outside = std::min(outside, z);
-        if (n.z() < 0.0) inside = std::max(inside, z);
-      }
-      const bool is_over = outside >= inside;
-      EXPECT_EQ(sample.gap < kNoGround, is_over);
-      if (!is_over) continue;
+      const std::optional<double> top = topOf(hull, X_WO, x, y);
+      EXPECT_EQ(sample.gap < kNoGround, top.has_value());
+      if (!top) continue;
       ++hits;
-      EXPECT_NEAR(sample.gap, (100.0 - outside) * sample.nz, 1e-10);
-      // And the point on it lies on the surface.
-      const Vector3 p = inverseTransform(X_WO, Vector3(x, y, outside));
-      double most = -1e9;
-      for (int f = 0; f < hull.faceCount(); ++f) {
-        most = std::max(most, dot(hull.face(f).normal, p) - hull.face(f).offset);
-      }
-      EXPECT_NEAR(most, 0.0, 1e-12);
+      EXPECT_NEAR(sample.gap, (100.0 - *top) * sample.nz, 1e-10);
+      EXPECT_NEAR(beyond(hull, X_WO, Vector3(x, y, *top)), 0.0, 1e-12);
     }
   }
   EXPECT_GT(hits, 500);
