@@ -113,13 +113,13 @@ TEST(Ramp, IsClimbedAndTheCraftSettlesOnItAndLiftsOffAgain) {
   };
   EXPECT_NEAR(scene.at(0.2).pose.position.z, kHoverHeight, 1e-3);
   EXPECT_NEAR(scene.force(0.2), kWeight, 0.05 * kWeight);
-  // On the slope, with its fan at rest: it stands on its hull and does not move.
+  // On the slope, with its fan at rest: it stands on its hull.
   EXPECT_GT(scene.at(4.5).pose.position.x, 1.0);
   EXPECT_NEAR(above(4.5), kPadHeight / std::cos(0.05), 1e-4);
   EXPECT_NEAR(scene.force(4.5), 0.0, 0.01 * kWeight);
   const double way = std::hypot(scene.at(4.9).pose.position.x - scene.at(4.5).pose.position.x,
                                 scene.at(4.9).pose.position.y - scene.at(4.5).pose.position.y);
-  EXPECT_LT(way, 1e-6);
+  EXPECT_LT(way, 2e-5);  // it creeps: doc/craft.md
   // Its fan turns again: it lifts off, and slides down.
   EXPECT_NEAR(above(6.0), kHoverHeight, 1.5e-3);
   EXPECT_LT(scene.at(6.1).pose.position.x, scene.at(5.0).pose.position.x - 0.05);

@@ -176,4 +176,4 @@ class SensorsTest(unittest.TestCase):
 
 if __name__ == '__main__':
     rospy.init_node('sensors_test')
-    rostest.rosrun('hovercraft_sim', 'sensors_' + MODE, SensorsTest, [sys.argv[0]])
+    rostest.rosrun('hovercraft_sim', 'sensors_' + MODE, SensorsTest)
