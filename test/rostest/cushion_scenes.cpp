@@ -12,6 +12,8 @@
 #include <hovercraft_sim/Cushion.h>
 #include <hovercraft_sim/State.h>
 #include <ros/package.h>
+#include <ros/service.h>
+#include <std_srvs/Trigger.h>
 
 #include "hovercraft_sim/ros/flight_test.h"
 #include "hovercraft_sim/ros/simulate.h"
@@ -71,6 +73,8 @@ class Scene {
     Flight flight;
     flight.play(config + ".csv", settle);
     EXPECT_TRUE(follows(flight, request.output, {}));
+    std_srvs::Trigger resume;  // it was paused at the end of its flight: nothing more would come
+    EXPECT_TRUE(ros::service::call("/hovercraft_sim/resume", resume));
     Recording recording = recorded.finish();
     states_ = recording.messages<hovercraft_sim::State>("/rc5/state");
     cushions_ = recording.messages<hovercraft_sim::Cushion>("/rc5/cushion");
