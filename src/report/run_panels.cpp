@@ -63,6 +63,7 @@ RunBand bandOf(const std::vector<double>& flags, const std::vector<std::int64_t>
   return band;
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void addThrustPanel(const TopicSamples& engines, std::int64_t zero_ns,
                     std::vector<RunPanel>& panels) {
   RunPanel thrusts = panel("Thrust", "N", engines.topic, timesOf(engines, zero_ns));
@@ -217,6 +218,7 @@ std::vector<RunPanel> mainPanels(const RunBody& body, const BodyTopics& topics,
   return panels;
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 std::vector<RunPanel> panelsOfTopic(const TopicSamples& samples, std::int64_t zero_ns) {
   const OneKind* const one_kind = oneKindOf(samples.type);
   std::vector<RunPanel> panels;

@@ -103,6 +103,7 @@ void RunMaker::readScenario() {
       "There is no scenario in it, so that shapes, obstacles and work are not known.");
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void RunMaker::findZero(const std::vector<BodyTopics>& bodies) {
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   for (const BodyTopics& body : bodies) {
@@ -128,6 +129,7 @@ void RunMaker::findZero(const std::vector<BodyTopics>& bodies) {
   }
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void RunMaker::readContacts() {
   for (const auto& [topic, samples] : recorded_.topics) {
     if (samples.type != "hovercraft_sim/Contact") continue;
@@ -176,6 +178,7 @@ const hovercraft::VehicleScenario* RunMaker::describedBody(const std::string& na
   return nullptr;
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void RunMaker::addBody(const BodyTopics& topics) {
   RunBody body;
   body.name = topics.name;
@@ -265,6 +268,7 @@ double topSpeedOf(const RunVelocity& velocity) {
   return top;
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void RunMaker::addFacts(const std::vector<BodyTopics>& bodies) {
   fact("simulated", fmt::format("{:.2f} s", 1e-9 * static_cast<double>(run_.end_ns)));
   for (const RunBody& body : run_.bodies) {

@@ -104,13 +104,13 @@ struct SurfacePainter {
 
   void operator()(const hovercraft::PlaneScenario& plane) const {
     const double half = 0.5 * kSheet;
-    const auto pointAt = [&](double x, double y) {
+    const auto point_at = [&](double x, double y) {
       const Vector3& n = plane.normal;
       return toPointMessage({x, y, plane.height - (n.x() * x + n.y() * y) / n.z()});
     };
     for (const auto& corner : kTwoTriangles) {
       target.points.push_back(
-          pointAt(half * (2.0 * corner[0] - 1.0), half * (2.0 * corner[1] - 1.0)));
+          point_at(half * (2.0 * corner[0] - 1.0), half * (2.0 * corner[1] - 1.0)));
     }
   }
   void operator()(const hovercraft::HeightMapScenario& map) const {

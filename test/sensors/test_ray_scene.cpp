@@ -53,8 +53,8 @@ TEST(RayScene, AScanInAPolygonalPenIsTheClosedForm) {
                                                 {-3.0, 2.5}, {-4.0, -1.0}, {0.0, -3.5}};
   std::vector<RayTarget> walls;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d a = corners[i];
-    const Eigen::Vector2d b = corners[(i + 1) % corners.size()];
+    const Eigen::Vector2d& a = corners[i];
+    const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
     const Eigen::Vector2d out = Eigen::Vector2d(b.y() - a.y(), a.x() - b.x()).normalized() * 0.3;
     std::vector<Vector3> points;
     for (const Eigen::Vector2d& p : {a, b, Eigen::Vector2d(b + out), Eigen::Vector2d(a + out)}) {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ SensorParameters sensorOf(decltype(SensorParameters::model) model, Tick period =
   SensorParameters parameters;
   parameters.name = "sensor";
   parameters.period = period;
-  parameters.model = model;
+  parameters.model = std::move(model);
   return parameters;
 }
 
@@ -252,7 +253,7 @@ TEST(Odometry, TheCovarianceIsThatOfTheWhiteNoise) {
   const Twist twist = {{u, 0.0, 0.0}, Vector3::Zero()};
   bench.model->start(instantAt(0, Vector3::Zero(), {}, twist), bench.memory.data());
   for (int n = 1; n <= kCount; ++n) {
-    bench.model->measure(instantAt(10 * n, Vector3::Zero(), {}, twist), bench.memory.data(),
+    bench.model->measure(instantAt(Tick{10} * n, Vector3::Zero(), {}, twist), bench.memory.data(),
                          bench.sample.data());
   }
   const double yaw = 0.1 * dt * 0.1 * dt;
