@@ -35,7 +35,11 @@ def main():
         command = ThrustCommand()
         command.header.stamp = odometry.header.stamp
         command.rear, command.left, command.right = thrusts(odometry, heading, speed)
-        publisher.publish(command)
+        try:
+            publisher.publish(command)
+        except rospy.ROSException:
+            if not rospy.is_shutdown():  # it closes the topic before the callbacks end
+                raise
 
     rospy.Subscriber('hovercraft/odom', Odometry, answer, queue_size=100, tcp_nodelay=True)
     rospy.spin()

@@ -61,7 +61,7 @@ RULES = (
     Rule(r'roscore .*', until='/rosout_agg', stays=True),
     Rule(r'markers_node .*', beside=(ROSCORE,), until='/hovercraft_markers/markers', stays=True),
     Rule(r'rviz .*', skip='it opens a window'),
-    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --contacts FILE\.csv|simulate --hold|rosparam delete /use_sim_time',
+    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --hold|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
          skip=NAMED),
     Rule(r'roslaunch hovercraft_sim sim\.launch set:=.*', beside=(), until='/hovercraft_sim/scenario'),
     # CONTRIBUTING.md
@@ -83,7 +83,7 @@ RULES = (
     Rule(r'rosbag record .*', beside=(SIMULATION,), until='rostopic echo -n 50 /hovercraft/state'),
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
-    Rule(r'scripts/check_example build_release', skip=SCRIPTS_TEST),
+    Rule(r'scripts/check_(example|page) build_release', skip=SCRIPTS_TEST),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
     Rule(r'cd web && npm ci && npm run build', skip='scripts/check_page does so'),
