@@ -70,10 +70,6 @@ RULES = (
     Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
     # doc/sensors.md, doc/helm.md
-    Rule(r'replay senses\.bag', says='identical: .* messages of sensors'),
-    Rule(r'roslaunch hovercraft_sim sim\.launch (truth_odom|map):=.*', beside=(), until='/hovercraft_sim/scenario'),
-    Rule(r'roslaunch hovercraft_sim autonomy\.launch', beside=(), until='rostopic echo -n 1 --filter "m.rear > 0.1" /hovercraft/thrust'),
-    Rule(r'rosrun hovercraft_sim (teleop|joy_teleop)\.py.*', skip='it wants a person at a keyboard or a joystick'),
     # doc/time.md
     Rule(r'rosrun dynamic_reconfigure dynparam .*', beside=(SIMULATION,)),
     Rule(r'rosservice call .*', beside=(SIMULATION,), says='success: True'),
@@ -86,5 +82,4 @@ RULES = (
     Rule(r'scripts/check_(example|page) build_release', skip=SCRIPTS_TEST),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
-    Rule(r'cd web && npm ci && npm run build', skip='scripts/check_page does so'),
 )
