@@ -151,14 +151,16 @@ class HOVERCRAFT_PUBLIC Cushion {
   class SampledProbe;
 
   template <class Probe>
-  void blow(const BodyMotion& motion, const FanSpeeds& speeds, const Probe& probe,
-            Airs& airs) const;
+  HOVERCRAFT_HIDDEN void blow(const BodyMotion& motion, const FanSpeeds& speeds, const Probe& probe,
+                              Airs& airs) const;
   void planarAirs(const FanSpeeds& speeds, double load, Airs& airs) const;
   template <class Probe>
-  Wrench wrenchOver(const BodyMotion& motion, const FanSpeeds& speeds, const Probe& probe) const;
+  HOVERCRAFT_HIDDEN Wrench wrenchOver(const BodyMotion& motion, const FanSpeeds& speeds,
+                                      const Probe& probe) const;
   Wrench pressureWrench(const Airs& airs) const;
   template <class Probe>
-  Wrench skirtWrench(const BodyMotion& motion, const Probe& probe, const Airs& airs) const;
+  HOVERCRAFT_HIDDEN Wrench skirtWrench(const BodyMotion& motion, const Probe& probe,
+                                       const Airs& airs) const;
   Wrench momentumDrag(const BodyMotion& motion, const Airs& airs) const;
   void write(const Airs& airs, CellReport* reports) const;
 

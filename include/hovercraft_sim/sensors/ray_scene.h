@@ -23,7 +23,7 @@ struct HOVERCRAFT_PUBLIC RayTarget {
   RayTarget(const ConvexPolyhedron& polyhedron, std::int32_t moving_body,
             const Pose& place = Pose());
 
-  static constexpr std::int32_t kFixed = -1;
+  HOVERCRAFT_HIDDEN static constexpr std::int32_t kFixed = -1;
   std::int32_t moving = kFixed;
   Pose X_WT;                     // of a fixed one
   std::vector<HalfSpace> faces;  // in T
