@@ -205,6 +205,7 @@ void drawWay(const FigureAxes& axes, const RunMotion& motion, const FigureColor&
   figure.lines.push_back(line);
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 void drawObstacles(const FigureAxes& axes, const RunData& run, Figure& figure) {
   if (!run.scenario || !run.scenario->world) return;
   for (const auto& obstacle : run.scenario->world->obstacles) {
@@ -236,6 +237,7 @@ void drawObstacles(const FigureAxes& axes, const RunData& run, Figure& figure) {
   }
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 Figure pathFigure(const std::vector<RunData>& runs) {
   FigureRange x = emptyRange();
   FigureRange y = emptyRange();
@@ -303,6 +305,7 @@ std::string fileNameOf(const std::string& text) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 std::vector<NamedFigure> figuresOf(const std::vector<RunData>& runs) {
   std::vector<NamedFigure> figures;
   std::set<std::string> names;
@@ -316,7 +319,7 @@ std::vector<NamedFigure> figuresOf(const std::vector<RunData>& runs) {
   for (const RunData& run : runs) {
     end = std::max(end, kNanosecond * static_cast<double>(run.end_ns));
   }
-  const auto otherOf = [](const RunPanel& panel, const std::vector<RunPanel>& panels) {
+  const auto other_of = [](const RunPanel& panel, const std::vector<RunPanel>& panels) {
     const auto at = std::find_if(panels.begin(), panels.end(), [&](const RunPanel& each) {
       return each.title == panel.title && (each.is_main || each.source == panel.source);
     });
@@ -331,7 +334,7 @@ std::vector<NamedFigure> figuresOf(const std::vector<RunData>& runs) {
     }
     for (const RunPanel& panel : body.panels) {
       add(body.name + "_" + (panel.is_main ? "" : panel.source + "_") + panel.title,
-          panelFigure(panel, partner != nullptr ? otherOf(panel, partner->panels) : nullptr, end));
+          panelFigure(panel, partner != nullptr ? other_of(panel, partner->panels) : nullptr, end));
     }
   }
   for (const RunPanel& panel : runs.front().panels) {

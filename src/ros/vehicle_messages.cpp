@@ -41,9 +41,9 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
 }
 
 void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
-  for (std_msgs::Header* header : {&pose_.header, &twist_.header, &odom_.header, &transform_.header,
-                                   &engines_.header, &actuators_.header, &state_.header,
-                                   &cushion_.header}) {
+  for (std_msgs::Header* header :
+       {&pose_.header, &twist_.header, &odom_.header, &transform_.header, &engines_.header,
+        &actuators_.header, &state_.header, &cushion_.header}) {
     header->stamp = place.stamp;
   }
   const hovercraft::Motion motion = simulation.motion(vehicle_);

@@ -18,7 +18,10 @@ constexpr double kMostRudderAngle = 0.5;
 // A lost command must neither drop a craft at speed nor put its rudder amidships.
 constexpr double kNoTimeout = 0.0;
 
-const std::vector<std::string> kRotationNames = {"right", "left"};
+const std::vector<std::string>& rotationNames() {
+  static const std::vector<std::string> names = {"right", "left"};
+  return names;
+}
 
 Vector3 unitVector(const ConfigReader& reader, const char* key, const Vector3& vector) {
   if (std::abs(norm(vector) - 1.0) > kUnitLength) {
@@ -29,8 +32,8 @@ Vector3 unitVector(const ConfigReader& reader, const char* key, const Vector3& v
 
 void parseMotion(const ConfigReader& reader, double default_timeout, EngineParameters& motion) {
   motion.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
-  motion.timeout_ns = nanosecondsOf(reader, "timeout",
-                                       reader.numberOr(default_timeout, "timeout", kNotNegative));
+  motion.timeout_ns =
+      nanosecondsOf(reader, "timeout", reader.numberOr(default_timeout, "timeout", kNotNegative));
 }
 
 EngineParameters parseEngine(const ConfigReader& reader) {
@@ -65,7 +68,7 @@ void parsePropeller(const ConfigReader& reader, ActuatorScenario& propeller) {
   propeller.motion.min_thrust = reader.number("min_speed", kNotPositive);
   propeller.motion.max_thrust = reader.number("max_speed", kNotNegative);
   propeller.diameter = reader.length("diameter");
-  propeller.turn = reader.choiceOr(0, "rotation", kRotationNames) == 0 ? 1.0 : -1.0;
+  propeller.turn = reader.choiceOr(0, "rotation", rotationNames()) == 0 ? 1.0 : -1.0;
   propeller.thrust_coefficients = reader.vector("thrust_coefficients");
   propeller.torque_coefficients = reader.vectorOr(Vector3::Zero(), "torque_coefficients");
   parseMotion(reader, kDefaultCommandTimeout, propeller.motion);
@@ -171,7 +174,7 @@ std::string kindYaml(const ActuatorScenario& actuator) {
           "{}, thrust_coefficients: {}, torque_coefficients: {}, ",
           yamlVector(motion.direction), yamlNumber(motion.min_thrust),
           yamlNumber(motion.max_thrust), yamlNumber(actuator.diameter),
-          yamlNumber(actuator.air_density), kRotationNames[actuator.turn > 0.0 ? 0 : 1],
+          yamlNumber(actuator.air_density), rotationNames()[actuator.turn > 0.0 ? 0 : 1],
           yamlVector(actuator.thrust_coefficients), yamlVector(actuator.torque_coefficients));
     case ActuatorKind::kRudder: {
       const std::string fan =

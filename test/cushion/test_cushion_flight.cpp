@@ -58,6 +58,7 @@ Decay decayOf(const std::vector<double>& samples, double h) {
   return {omega, rate / omega};
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 TEST(CushionFlight, HeavePitchAndRollDecayAsLinearisedInBothDirections) {
   const HoverBody body = rc5Body();
   const FlownCraft craft(rc5Cushion(), body);
@@ -120,18 +121,18 @@ TEST(CushionFlight, EachStepperKeepsItsOrder) {
       {Vector3(0.4, -0.2, 0.02), Vector3(0.05, -0.03, 0.6)});
   const double duration = 0.1;
   const State exact = flown(craft, start, Integrator::kRungeKutta4, duration / 6400, 6400);
-  const auto errorOf = [&](Integrator integrator, int steps) {
+  const auto error_of = [&](Integrator integrator, int steps) {
     const State end = flown(craft, start, integrator, duration / steps, steps);
     return norm(end.p_WB - exact.p_WB) + norm(end.momentum_W - exact.momentum_W) +
            norm(end.angular_momentum_W - exact.angular_momentum_W);
   };
-  const auto orderOf = [&](Integrator integrator, int steps) {
-    return std::log2(errorOf(integrator, steps) / errorOf(integrator, 2 * steps));
+  const auto order_of = [&](Integrator integrator, int steps) {
+    return std::log2(error_of(integrator, steps) / error_of(integrator, 2 * steps));
   };
-  EXPECT_NEAR(orderOf(Integrator::kEuler, 3200), 1.0, 0.1);
-  EXPECT_NEAR(orderOf(Integrator::kSemiImplicitEuler, 3200), 1.0, 0.1);
-  EXPECT_NEAR(orderOf(Integrator::kHeun, 400), 2.0, 0.1);
-  EXPECT_NEAR(orderOf(Integrator::kRungeKutta4, 100), 4.0, 0.15);
+  EXPECT_NEAR(order_of(Integrator::kEuler, 3200), 1.0, 0.1);
+  EXPECT_NEAR(order_of(Integrator::kSemiImplicitEuler, 3200), 1.0, 0.1);
+  EXPECT_NEAR(order_of(Integrator::kHeun, 400), 2.0, 0.1);
+  EXPECT_NEAR(order_of(Integrator::kRungeKutta4, 100), 4.0, 0.15);
 }
 
 TEST(CushionFlight, EnergyChangesByTheCushionsWork) {
@@ -145,28 +146,28 @@ TEST(CushionFlight, EnergyChangesByTheCushionsWork) {
   State state =
       craft.mobility.stateOfMotion(Vector3(0.0, 0.0, 0.05), quaternionFromRpy({0.03, 0.05, 0.0}),
                                    {Vector3(0.5, 0.1, 0.0), Vector3(0.0, 0.1, 0.3)});
-  const auto energyOf = [&](const State& at) {
+  const auto energy_of = [&](const State& at) {
     return kineticEnergy(at, craft.mobility) - dot(craft.weight_W, at.p_WB);
   };
-  const auto powerOf = [&](const State& at) {
+  const auto power_of = [&](const State& at) {
     const BodyMotion motion = craft.motionOf(at);
     const Wrench wrench = craft.cushion.wrenchInBody(motion, craft.speeds, craft.ground);
     return dot(wrench.force, motion.v_WB_B) + dot(wrench.torque, motion.w_WB_B);
   };
-  const double before = energyOf(state);
+  const double before = energy_of(state);
   double work = 0.0;
   double lowest = 1.0;
   const double h = 2e-5;
   for (int i = 0; i < 25000; ++i) {
     const State middle = integrationStep(Integrator::kRungeKutta4, state, craft, h);
     const State end = integrationStep(Integrator::kRungeKutta4, middle, craft, h);
-    work += (2.0 * h / 6.0) * ((powerOf(state) + powerOf(end)) + 4.0 * powerOf(middle));
+    work += (2.0 * h / 6.0) * ((power_of(state) + power_of(end)) + 4.0 * power_of(middle));
     state = end;
     lowest = std::min(lowest, state.p_WB.z());
   }
   EXPECT_LT(work, -1.0);
   EXPECT_LT(lowest, 0.002);  // the hem was on the ground: it hung 9 mm below the centre
-  EXPECT_NEAR(energyOf(state) - before, work, 1e-7 * before);
+  EXPECT_NEAR(energy_of(state) - before, work, 1e-7 * before);
 }
 
 TEST(CushionFlight, StoppedFanLetsTheCraftDownOnItsSkirt) {

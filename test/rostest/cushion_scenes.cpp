@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <std_srvs/Trigger.h>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,6 @@
 #include <hovercraft_sim/State.h>
 #include <ros/package.h>
 #include <ros/service.h>
-#include <std_srvs/Trigger.h>
 
 #include "hovercraft_sim/ros/flight_test.h"
 #include "hovercraft_sim/ros/simulate.h"

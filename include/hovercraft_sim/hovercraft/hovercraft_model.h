@@ -63,7 +63,7 @@ struct HovercraftModel {
         engines.wrenchInBody({thrusts[0], thrusts[1], thrusts[2]}) + drag.wrenchInBody(u_B, w_WB_B);
     if constexpr (kHasMore) {
       if (!forces.empty()) wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
-      if (ground_forces != nullptr) {
+      if (ground_forces != nullptr && fan_speeds != nullptr) {
         const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
         wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment, *fan_speeds);
       }
