@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "hovercraft_sim/report/figure_axes.h"
 #include "hovercraft_sim/sim/world_builder.h"
@@ -205,40 +206,55 @@ void drawWay(const FigureAxes& axes, const RunMotion& motion, const FigureColor&
   figure.lines.push_back(line);
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
+using PlanPoints = std::vector<std::pair<double, double>>;
+
+/// Appends the points of which each turns left after the two before it, but for the last one.
+void appendChain(const PlanPoints& points, PlanPoints& outline) {
+  const std::size_t base = outline.size();
+  for (const auto& [x, y] : points) {
+    while (outline.size() >= base + 2) {
+      const auto& [ax, ay] = outline[outline.size() - 2];
+      const auto& [bx, by] = outline.back();
+      if ((bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0.0) break;
+      outline.pop_back();
+    }
+    outline.emplace_back(x, y);
+  }
+  outline.pop_back();
+}
+
+/// The convex outline of points: a lower and an upper chain (Andrew 1979).
+PlanPoints outlineOf(PlanPoints points) {
+  std::sort(points.begin(), points.end());
+  PlanPoints outline;
+  appendChain(points, outline);
+  std::reverse(points.begin(), points.end());
+  appendChain(points, outline);
+  return outline;
+}
+
 void drawObstacles(const FigureAxes& axes, const RunData& run, Figure& figure) {
   if (!run.scenario || !run.scenario->world) return;
   for (const auto& obstacle : run.scenario->world->obstacles) {
-    std::vector<std::pair<double, double>> points;
+    PlanPoints points;
     for (const hovercraft::Vector3& corner : hovercraft::hullPoints(obstacle.hull)) {
       points.emplace_back(corner.x(), corner.y());
     }
-    std::sort(points.begin(), points.end());
-    // The convex outline: a lower and an upper chain (Andrew 1979).
-    std::vector<std::pair<double, double>> outline;
-    for (int chain = 0; chain < 2; ++chain) {
-      const std::size_t base = outline.size();
-      for (const auto& [x, y] : points) {
-        while (outline.size() >= base + 2) {
-          const auto& [ax, ay] = outline[outline.size() - 2];
-          const auto& [bx, by] = outline.back();
-          if ((bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0.0) break;
-          outline.pop_back();
-        }
-        outline.emplace_back(x, y);
-      }
-      outline.pop_back();
-      std::reverse(points.begin(), points.end());
-    }
     FigureArea area = {{}, kObstacleColor};
-    for (const auto& [x, y] : outline) area.corners.push_back(axes.place(x, y));
+    for (const auto& [x, y] : outlineOf(std::move(points))) {
+      area.corners.push_back(axes.place(x, y));
+    }
     area.corners = axes.clipped(std::move(area.corners));
     if (!area.corners.empty()) figure.areas.push_back(area);
   }
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
-Figure pathFigure(const std::vector<RunData>& runs) {
+bool isDrawn(const RunContact& contact) {
+  return contact.point.cwiseAbs().maxCoeff() <= kFarthestDrawn;
+}
+
+/// Axes around all ways and contacts, with one scale.
+FigureAxes pathAxes(const std::vector<RunData>& runs) {
   FigureRange x = emptyRange();
   FigureRange y = emptyRange();
   for (const RunData& run : runs) {
@@ -247,7 +263,7 @@ Figure pathFigure(const std::vector<RunData>& runs) {
       for (const double value : body.motion.position[1]) include(y, value);
     }
     for (const RunContact& contact : run.contacts) {
-      if (!(contact.point.cwiseAbs().maxCoeff() <= kFarthestDrawn)) continue;
+      if (!isDrawn(contact)) continue;
       include(x, contact.point.x());
       include(y, contact.point.y());
     }
@@ -256,29 +272,37 @@ Figure pathFigure(const std::vector<RunData>& runs) {
   FigureAxes axes(kLeftTop, {kWidth - kRight, kPathHeight - kBottom},
                   {x.least - room, x.most + room}, {y.least - room, y.most + room});
   axes.makeEqual();
+  return axes;
+}
+
+/// The ways of a run and their names, from `legend` on, the x of the next one.
+void drawWays(const FigureAxes& axes, const RunData& run, bool is_first, double& legend,
+              Figure& figure) {
+  const double dash = is_first ? 0.0 : 5.0;
+  for (std::size_t i = 0; i < run.bodies.size(); ++i) {
+    const RunBody& body = run.bodies[i];
+    const FigureColor color = body.is_craft ? colorAt(i) : kBodyColor;
+    drawWay(axes, body.motion, color, dash, figure);
+    if (is_first && body.is_craft) drawHeadings(axes, body.motion, color, figure);
+    const std::string name = body.name + (is_first ? "" : ", second run");
+    if (legend > kWidth - 100.0) continue;
+    figure.lines.push_back({{{legend, 33.0}, {legend + 20.0, 33.0}}, color, 1.8, dash});
+    figure.texts.push_back({{legend + 25.0, 37.0}, name, 11.0, FigureAnchor::kBegin, false, kText});
+    legend += 45.0 + 6.5 * static_cast<double>(name.size());
+  }
+}
+
+Figure pathFigure(const std::vector<RunData>& runs) {
+  const FigureAxes axes = pathAxes(runs);
   Figure figure = {kWidth, kPathHeight, {}, {}, {}};
   drawObstacles(axes, runs.front(), figure);
   axes.draw(figure, "x (m)", "y (m)");
   figure.texts.push_back(
       {{kLeftTop.x, 18.0}, "Way in the world frame", 13.0, FigureAnchor::kBegin, false, kText});
   double legend = kLeftTop.x;
-  for (std::size_t run = 0; run < runs.size(); ++run) {
-    const double dash = run > 0 ? 5.0 : 0.0;
-    for (std::size_t i = 0; i < runs[run].bodies.size(); ++i) {
-      const RunBody& body = runs[run].bodies[i];
-      const FigureColor color = body.is_craft ? colorAt(i) : kBodyColor;
-      drawWay(axes, body.motion, color, dash, figure);
-      if (run == 0 && body.is_craft) drawHeadings(axes, body.motion, color, figure);
-      const std::string name = body.name + (run > 0 ? ", second run" : "");
-      if (legend > kWidth - 100.0) continue;
-      figure.lines.push_back({{{legend, 33.0}, {legend + 20.0, 33.0}}, color, 1.8, dash});
-      figure.texts.push_back(
-          {{legend + 25.0, 37.0}, name, 11.0, FigureAnchor::kBegin, false, kText});
-      legend += 45.0 + 6.5 * static_cast<double>(name.size());
-    }
-  }
+  for (const RunData& run : runs) drawWays(axes, run, &run == &runs.front(), legend, figure);
   for (const RunContact& contact : runs.front().contacts) {
-    if (!(contact.point.cwiseAbs().maxCoeff() <= kFarthestDrawn)) continue;
+    if (!isDrawn(contact)) continue;
     const FigurePoint at = axes.place(contact.point.x(), contact.point.y());
     figure.lines.push_back(
         {{{at.x - 3.5, at.y - 3.5}, {at.x + 3.5, at.y + 3.5}}, kContactColor, 1.3, 0.0});
@@ -303,44 +327,64 @@ std::string fileNameOf(const std::string& text) {
   return name.empty() ? "plot" : name.substr(0, 80);
 }
 
+/// The same body in the second run, if there is one: by its name, or where each run has one body.
+const RunBody* partnerOf(const RunBody& body, const std::vector<RunData>& runs) {
+  if (runs.size() < 2) return nullptr;
+  const bool is_only = runs[0].bodies.size() == 1 && runs[1].bodies.size() == 1;
+  const RunBody* partner = nullptr;
+  for (const RunBody& other : runs[1].bodies) {
+    if (other.name == body.name || is_only) partner = &other;
+  }
+  return partner;
+}
+
+const RunPanel* partnerOf(const RunPanel& panel, const RunBody* other) {
+  if (other == nullptr) return nullptr;
+  const auto at =
+      std::find_if(other->panels.begin(), other->panels.end(), [&](const RunPanel& each) {
+        return each.title == panel.title && (each.is_main || each.source == panel.source);
+      });
+  return at == other->panels.end() ? nullptr : &*at;
+}
+
+/// Figures under names of files, none twice.
+class FigureList {
+ public:
+  void add(const std::string& wanted, Figure figure) {
+    std::string name = fileNameOf(wanted);
+    for (int i = 2; !names_.insert(name).second; ++i) {
+      name = fmt::format("{}_{}", fileNameOf(wanted), i);
+    }
+    figures_.push_back({name, std::move(figure)});
+  }
+  std::vector<NamedFigure> take() { return std::move(figures_); }
+
+ private:
+  std::vector<NamedFigure> figures_;
+  std::set<std::string> names_;
+};
+
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 std::vector<NamedFigure> figuresOf(const std::vector<RunData>& runs) {
-  std::vector<NamedFigure> figures;
-  std::set<std::string> names;
-  const auto add = [&](const std::string& wanted, Figure figure) {
-    std::string name = fileNameOf(wanted);
-    for (int i = 2; !names.insert(name).second; ++i)
-      name = fmt::format("{}_{}", fileNameOf(wanted), i);
-    figures.push_back({name, std::move(figure)});
-  };
+  FigureList figures;
   double end = 0.0;
   for (const RunData& run : runs) {
     end = std::max(end, kNanosecond * static_cast<double>(run.end_ns));
   }
-  const auto other_of = [](const RunPanel& panel, const std::vector<RunPanel>& panels) {
-    const auto at = std::find_if(panels.begin(), panels.end(), [&](const RunPanel& each) {
-      return each.title == panel.title && (each.is_main || each.source == panel.source);
-    });
-    return at == panels.end() ? nullptr : &*at;
-  };
-  add("way", pathFigure(runs));
+  figures.add("way", pathFigure(runs));
   for (const RunBody& body : runs.front().bodies) {
-    const RunBody* partner = nullptr;
-    for (std::size_t i = 0; runs.size() > 1 && i < runs[1].bodies.size(); ++i) {
-      const bool is_only = runs[0].bodies.size() == 1 && runs[1].bodies.size() == 1;
-      if (runs[1].bodies[i].name == body.name || is_only) partner = &runs[1].bodies[i];
-    }
+    const RunBody* const partner = partnerOf(body, runs);
     for (const RunPanel& panel : body.panels) {
-      add(body.name + "_" + (panel.is_main ? "" : panel.source + "_") + panel.title,
-          panelFigure(panel, partner != nullptr ? other_of(panel, partner->panels) : nullptr, end));
+      const std::string source = panel.is_main ? "" : panel.source + "_";
+      figures.add(body.name + "_" + source + panel.title,
+                  panelFigure(panel, partnerOf(panel, partner), end));
     }
   }
   for (const RunPanel& panel : runs.front().panels) {
-    add(panel.source + "_" + panel.title, panelFigure(panel, nullptr, end));
+    figures.add(panel.source + "_" + panel.title, panelFigure(panel, nullptr, end));
   }
-  return figures;
+  return figures.take();
 }
 
 }  // namespace hovercraft_ros

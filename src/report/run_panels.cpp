@@ -63,26 +63,28 @@ RunBand bandOf(const std::vector<double>& flags, const std::vector<std::int64_t>
   return band;
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
+/// The curves of an engine, applied and asked for, and when it was beyond its limits or timed out.
+/// Nothing of one that never pushes.
+void addEngine(const TopicSamples& engines, const std::string& engine, RunPanel& thrusts) {
+  const auto* commanded = engines.column(engine + ".commanded");
+  const auto* applied = engines.column(engine + ".applied");
+  if (commanded == nullptr || applied == nullptr) return;
+  const bool is_still = isFlat(*applied) && isFlat(*commanded);
+  if (is_still && applied->front() == 0.0 && commanded->front() == 0.0) return;
+  thrusts.curves.push_back({engine, *applied});
+  thrusts.curves.push_back({engine, *commanded, true});
+  for (const char* const kind : {"saturated", "timed_out"}) {
+    const auto* flags = engines.column(engine + "." + kind);
+    if (flags == nullptr) continue;
+    RunBand band = bandOf(*flags, thrusts.times_ns, engine, kind);
+    if (!band.spans_ns.empty()) thrusts.bands.push_back(band);
+  }
+}
+
 void addThrustPanel(const TopicSamples& engines, std::int64_t zero_ns,
                     std::vector<RunPanel>& panels) {
   RunPanel thrusts = panel("Thrust", "N", engines.topic, timesOf(engines, zero_ns));
-  for (const char* const name : hovercraft::kEngineNames) {
-    const std::string engine = name;
-    const auto* commanded = engines.column(engine + ".commanded");
-    const auto* applied = engines.column(engine + ".applied");
-    if (commanded == nullptr || applied == nullptr) continue;
-    const bool is_still = isFlat(*applied) && isFlat(*commanded);
-    if (is_still && applied->front() == 0.0 && commanded->front() == 0.0) continue;
-    thrusts.curves.push_back({engine, *applied});
-    thrusts.curves.push_back({engine, *commanded, true});
-    for (const char* const kind : {"saturated", "timed_out"}) {
-      const auto* flags = engines.column(engine + "." + kind);
-      if (flags == nullptr) continue;
-      RunBand band = bandOf(*flags, thrusts.times_ns, engine, kind);
-      if (!band.spans_ns.empty()) thrusts.bands.push_back(band);
-    }
-  }
+  for (const char* const name : hovercraft::kEngineNames) addEngine(engines, name, thrusts);
   if (!thrusts.curves.empty()) panels.push_back(thrusts);
 }
 
@@ -200,6 +202,39 @@ std::string labelOf(const TopicSamples& samples, const std::string& path) {
   return names->front();
 }
 
+/// Where the numbers of a field go: the panel by its title, with its unit, and what the curve is
+/// called.
+struct CurvePlace {
+  std::string title;
+  std::string unit;
+  std::string label;
+};
+
+/// x, y, z of a vector belong together; what has a unit of its own stands for itself.
+CurvePlace placeOf(const TopicSamples& samples, const std::string& path) {
+  const std::string parent = parentOf(path);
+  const std::string own = unitOf(lastOf(path));
+  const bool is_component = !parent.empty() && own.empty();
+  CurvePlace place;
+  if (is_component) {
+    place = {parent, unitOf(lastOf(parent)), path.substr(parent.size() + 1)};
+  } else {
+    place = {withoutIndices(path), own, labelOf(samples, path)};
+  }
+  const OneKind* const one_kind = oneKindOf(samples.type);
+  if (one_kind != nullptr) {
+    place.title = one_kind->title;
+    place.unit = one_kind->unit;
+  }
+  return place;
+}
+
+bool isDrawn(const TopicSamples& samples, std::size_t leaf) {
+  const LeafKind kind = samples.leaves[leaf].kind;
+  if (kind == LeafKind::kText || kind == LeafKind::kTime) return false;
+  return !samples.numbers[leaf].empty() && !isFlat(samples.numbers[leaf]);
+}
+
 }  // namespace
 
 std::vector<RunPanel> mainPanels(const RunBody& body, const BodyTopics& topics,
@@ -218,36 +253,22 @@ std::vector<RunPanel> mainPanels(const RunBody& body, const BodyTopics& topics,
   return panels;
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 std::vector<RunPanel> panelsOfTopic(const TopicSamples& samples, std::int64_t zero_ns) {
-  const OneKind* const one_kind = oneKindOf(samples.type);
   std::vector<RunPanel> panels;
-  std::map<std::string, std::size_t> places;  // of the panel of each group
+  std::map<std::string, std::size_t> indices;  // of the panels, by title
   for (std::size_t i = 0; i < samples.leaves.size(); ++i) {
-    const MessageLeaf& leaf = samples.leaves[i];
-    if (leaf.kind == LeafKind::kText || leaf.kind == LeafKind::kTime) continue;
-    if (samples.numbers[i].empty() || isFlat(samples.numbers[i])) continue;
-    const std::string parent = parentOf(leaf.path);
-    const std::string own = unitOf(lastOf(leaf.path));
-    // x, y, z of a vector belong together; what has a unit of its own stands for itself.
-    const bool is_component = !parent.empty() && own.empty();
-    const std::string group = one_kind != nullptr ? one_kind->title
-                              : is_component      ? parent
-                                                  : withoutIndices(leaf.path);
-    const auto [place, is_new] = places.emplace(group, panels.size());
+    if (!isDrawn(samples, i)) continue;
+    const CurvePlace place = placeOf(samples, samples.leaves[i].path);
+    const auto [index, is_new] = indices.emplace(place.title, panels.size());
     if (is_new) {
       RunPanel made;
       made.source = samples.topic;
-      made.title = group;
-      made.unit = one_kind != nullptr ? one_kind->unit
-                  : is_component      ? unitOf(lastOf(parent))
-                                      : own;
+      made.title = place.title;
+      made.unit = place.unit;
       made.times_ns = timesOf(samples, zero_ns);
       panels.push_back(made);
     }
-    panels[place->second].curves.push_back(
-        {is_component ? leaf.path.substr(parent.size() + 1) : labelOf(samples, leaf.path),
-         samples.numbers[i]});
+    panels[index->second].curves.push_back({place.label, samples.numbers[i]});
   }
   return panels;
 }

@@ -1,6 +1,7 @@
 #include "hovercraft_sim/report/run_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -60,10 +61,16 @@ class RunMaker {
   void findZero(const std::vector<BodyTopics>& bodies);
   void readContacts();
   void addBody(const BodyTopics& topics);
+  /// What the scenario says of a body: shapes, engines, and the work of its forces.
+  void describe(const hovercraft::VehicleScenario& described, const BodyTopics& topics,
+                RunBody& body);
+  std::vector<std::int64_t> contactsOf(const std::string& body) const;
   const hovercraft::VehicleScenario* describedBody(const std::string& name, bool& is_craft) const;
   void readMarks();
   void addOtherPanels();
   void addFacts(const std::vector<BodyTopics>& bodies);
+  void addBodyFacts();
+  void addHashFacts(const std::vector<BodyTopics>& bodies);
   void addTelemetryFacts();
   void fact(const std::string& label, const std::string& value) {
     run_.facts.push_back({label, value});
@@ -103,8 +110,8 @@ void RunMaker::readScenario() {
       "There is no scenario in it, so that shapes, obstacles and work are not known.");
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
-void RunMaker::findZero(const std::vector<BodyTopics>& bodies) {
+/// The first stamp of what tells where the bodies are.
+std::int64_t firstStampOf(const std::vector<BodyTopics>& bodies) {
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   for (const BodyTopics& body : bodies) {
     for (const TopicSamples* samples : {body.state, body.odom, body.pose}) {
@@ -113,6 +120,11 @@ void RunMaker::findZero(const std::vector<BodyTopics>& bodies) {
       }
     }
   }
+  return first_ns;
+}
+
+void RunMaker::findZero(const std::vector<BodyTopics>& bodies) {
+  const std::int64_t first_ns = firstStampOf(bodies);
   run_.zero_ns = first_ns;
   if (!run_.scenario) return;
   for (const BodyTopics& body : bodies) {
@@ -129,7 +141,24 @@ void RunMaker::findZero(const std::vector<BodyTopics>& bodies) {
   }
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
+const char* kindOfContact(double kind) {
+  static const std::array<const char*, 3> words = {"bounce", "stick", "rest"};
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (kind == static_cast<double>(i)) return words[i];
+  }
+  return "contact";
+}
+
+/// A vector of a message; what it lacks is 0.
+Vector3 vectorOf(const TopicSamples& samples, const std::string& name, std::size_t i) {
+  Vector3 value = Vector3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const auto* column = samples.column(name + "." + "xyz"[k]);
+    if (column != nullptr) value[k] = (*column)[i];
+  }
+  return value;
+}
+
 void RunMaker::readContacts() {
   for (const auto& [topic, samples] : recorded_.topics) {
     if (samples.type != "hovercraft_sim/Contact") continue;
@@ -137,27 +166,16 @@ void RunMaker::readContacts() {
     const auto* kinds = samples.column("kind");
     const auto* a = samples.textColumn("body_a");
     const auto* b = samples.textColumn("body_b");
-    const auto vector = [&samples = samples](const std::string& name, std::size_t i) {
-      Vector3 value = Vector3::Zero();
-      for (int k = 0; k < 3; ++k) {
-        const auto* column = samples.column(name + "." + "xyz"[k]);
-        if (column != nullptr) value[k] = (*column)[i];
-      }
-      return value;
-    };
     if (kinds == nullptr || a == nullptr || b == nullptr) continue;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       RunContact contact;
       contact.time_ns = samples.stamps_ns[i] - run_.zero_ns;
-      contact.kind = (*kinds)[i] == 0.0   ? "bounce"
-                     : (*kinds)[i] == 1.0 ? "stick"
-                     : (*kinds)[i] == 2.0 ? "rest"
-                                          : "contact";
+      contact.kind = kindOfContact((*kinds)[i]);
       contact.a = (*a)[i];
       contact.b = (*b)[i];
-      contact.point = vector("point", i);
-      contact.normal = vector("normal", i);
-      contact.impulse = vector("impulse", i);
+      contact.point = vectorOf(samples, "point", i);
+      contact.normal = vectorOf(samples, "normal", i);
+      contact.impulse = vectorOf(samples, "impulse", i);
       run_.contacts.push_back(contact);
     }
   }
@@ -178,7 +196,27 @@ const hovercraft::VehicleScenario* RunMaker::describedBody(const std::string& na
   return nullptr;
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
+std::vector<std::int64_t> RunMaker::contactsOf(const std::string& body) const {
+  std::vector<std::int64_t> contacts_ns;
+  for (const RunContact& contact : run_.contacts) {
+    if (contact.a == body || contact.b == body) contacts_ns.push_back(contact.time_ns);
+  }
+  return contacts_ns;
+}
+
+void RunMaker::describe(const hovercraft::VehicleScenario& described, const BodyTopics& topics,
+                        RunBody& body) {
+  try {
+    body.shapes = shapesOf(described, body.is_craft);
+  } catch (const std::exception& error) {
+    run_.notes.push_back(fmt::format("{} is drawn without its hull: {}.", body.name, error.what()));
+  }
+  body.engines = enginesOf(described);
+  if (topics.state == nullptr) return;
+  body.ledger =
+      ledgerOf(*topics.state, described, run_.scenario->wind, run_.zero_ns, contactsOf(body.name));
+}
+
 void RunMaker::addBody(const BodyTopics& topics) {
   RunBody body;
   body.name = topics.name;
@@ -194,23 +232,7 @@ void RunMaker::addBody(const BodyTopics& topics) {
   if (body.motion.times_ns.empty()) return;
   run_.end_ns = std::max(run_.end_ns, body.motion.times_ns.back());
   body.velocity = velocityOf(topics, body.motion, p_HB, run_.zero_ns);
-  if (described != nullptr) {
-    try {
-      body.shapes = shapesOf(*described, body.is_craft);
-    } catch (const std::exception& error) {
-      run_.notes.push_back(
-          fmt::format("{} is drawn without its hull: {}.", body.name, error.what()));
-    }
-    body.engines = enginesOf(*described);
-  }
-  if (described != nullptr && topics.state != nullptr) {
-    std::vector<std::int64_t> contacts_ns;
-    for (const RunContact& contact : run_.contacts) {
-      if (contact.a == body.name || contact.b == body.name) contacts_ns.push_back(contact.time_ns);
-    }
-    body.ledger =
-        ledgerOf(*topics.state, *described, run_.scenario->wind, run_.zero_ns, contacts_ns);
-  }
+  if (described != nullptr) describe(*described, topics, body);
   body.panels = mainPanels(body, topics, run_.zero_ns);
   run_.bodies.push_back(std::move(body));
 }
@@ -268,17 +290,18 @@ double topSpeedOf(const RunVelocity& velocity) {
   return top;
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
-void RunMaker::addFacts(const std::vector<BodyTopics>& bodies) {
-  fact("simulated", fmt::format("{:.2f} s", 1e-9 * static_cast<double>(run_.end_ns)));
+void RunMaker::addBodyFacts() {
   for (const RunBody& body : run_.bodies) {
     if (!body.is_craft) continue;
     const std::string whose = run_.bodies.size() > 1 ? body.name + ": " : "";
     fact(whose + "distance", fmt::format("{:.2f} m", lengthOf(body.motion)));
-    if (body.velocity)
+    if (body.velocity) {
       fact(whose + "top speed", fmt::format("{:.2f} m/s", topSpeedOf(*body.velocity)));
+    }
   }
-  if (!run_.contacts.empty()) fact("contacts", std::to_string(run_.contacts.size()));
+}
+
+void RunMaker::addHashFacts(const std::vector<BodyTopics>& bodies) {
   for (const BodyTopics& body : bodies) {
     if (body.state == nullptr) continue;
     for (std::size_t i = 0; i < body.state->leaves.size(); ++i) {
@@ -287,6 +310,13 @@ void RunMaker::addFacts(const std::vector<BodyTopics>& bodies) {
            fmt::format("{:016x}", static_cast<std::uint64_t>(body.state->last_integers[i])));
     }
   }
+}
+
+void RunMaker::addFacts(const std::vector<BodyTopics>& bodies) {
+  fact("simulated", fmt::format("{:.2f} s", 1e-9 * static_cast<double>(run_.end_ns)));
+  addBodyFacts();
+  if (!run_.contacts.empty()) fact("contacts", std::to_string(run_.contacts.size()));
+  addHashFacts(bodies);
   if (run_.scenario) {
     fact("step size", hovercraft::numberText(run_.scenario->stepSize()) + " s");
     fact("seed", std::to_string(run_.scenario->seed));

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -58,7 +59,25 @@ Decay decayOf(const std::vector<double>& samples, double h) {
   return {omega, rate / omega};
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
+/// The coordinate of a motion (heave, pitch, roll) while it decays from a small deviation.
+std::vector<double> decayingSamples(const FlownCraft& craft, double height, std::size_t motion,
+                                    double sign, double h) {
+  Vector3 p_WB(0.0, 0.0, height);
+  Vector3 rpy = Vector3::Zero();
+  if (motion == 0) p_WB.z() += sign * 2e-5;
+  if (motion == 1) rpy.y() = sign * 2e-4;
+  if (motion == 2) rpy.x() = sign * 2e-4;
+  State state = craft.mobility.stateOfMotion(p_WB, quaternionFromRpy(rpy), Twist());
+  std::vector<double> samples;
+  for (int n = 0; n < 2500; ++n) {
+    const Vector3& v = state.orientation.v;
+    const std::array<double, 3> coordinates = {state.p_WB.z() - height, v.y(), v.x()};
+    samples.push_back(coordinates[motion]);
+    state = integrationStep(Integrator::kRungeKutta4, state, craft, h);
+  }
+  return samples;
+}
+
 TEST(CushionFlight, HeavePitchAndRollDecayAsLinearisedInBothDirections) {
   const HoverBody body = rc5Body();
   const FlownCraft craft(rc5Cushion(), body);
@@ -66,20 +85,7 @@ TEST(CushionFlight, HeavePitchAndRollDecayAsLinearisedInBothDirections) {
   const double h = 2e-4;
   for (const double sign : {1.0, -1.0}) {
     for (std::size_t i = 0; i < kHoverMotions; ++i) {
-      Vector3 p_WB(0.0, 0.0, hover.height);
-      Vector3 rpy = Vector3::Zero();
-      if (i == 0) p_WB.z() += sign * 2e-5;
-      if (i == 1) rpy.y() = sign * 2e-4;
-      if (i == 2) rpy.x() = sign * 2e-4;
-      State state = craft.mobility.stateOfMotion(p_WB, quaternionFromRpy(rpy), Twist());
-      std::vector<double> samples;
-      for (int n = 0; n < 2500; ++n) {
-        samples.push_back(i == 0   ? state.p_WB.z() - hover.height
-                          : i == 1 ? state.orientation.v.y()
-                                   : state.orientation.v.x());
-        state = integrationStep(Integrator::kRungeKutta4, state, craft, h);
-      }
-      const Decay decay = decayOf(samples, h);
+      const Decay decay = decayOf(decayingSamples(craft, hover.height, i, sign, h), h);
       SCOPED_TRACE(kHoverMotionNames[i]);
       const HoverMode& mode = hover.modes[i];
       EXPECT_NEAR(decay.frequency, mode.frequency(), 0.01 * mode.frequency());

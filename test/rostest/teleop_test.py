@@ -6,6 +6,7 @@ import pty
 import signal
 import subprocess
 import termios
+import threading
 import time
 import unittest
 
@@ -16,6 +17,8 @@ from hovercraft_sim.msg import ThrustCommand
 from sensor_msgs.msg import Joy
 
 from ros_waiting import DEADLINE, wait_for_connections, wait_until
+
+KEY_REPEAT = 0.05  # s, at the longest: a message that comes is looked at at once
 
 
 class Helm:
@@ -48,8 +51,15 @@ class TeleopTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.messages = {'cmd_vel': [], 'thrust': []}
-        cls.wires = [rospy.Subscriber(topic, kind, cls.messages[topic].append, queue_size=1000)
+        cls.came = threading.Condition()
+        cls.wires = [rospy.Subscriber(topic, kind, cls.keep, topic, queue_size=1000)
                      for topic, kind in (('cmd_vel', Twist), ('thrust', ThrustCommand))]
+
+    @classmethod
+    def keep(cls, message, topic):
+        with cls.came:
+            cls.messages[topic].append(message)
+            cls.came.notify_all()
 
     def listen(self, topic):
         """To what comes on a topic from now on."""
@@ -57,12 +67,13 @@ class TeleopTest(unittest.TestCase):
         self.heard.clear()
 
     def drive(self, helm, keys, holds):
-        """Types until a message holds."""
+        """Types, as a key that is held repeats itself, until a message holds."""
         deadline = time.monotonic() + DEADLINE
-        while not any(map(holds, self.heard)):
-            self.assertLess(time.monotonic(), deadline, self.heard[-3:])
-            helm.type(keys)
-            time.sleep(0.05)
+        with self.came:
+            while not any(map(holds, self.heard)):
+                self.assertLess(time.monotonic(), deadline, self.heard[-3:])
+                helm.type(keys)
+                self.came.wait(KEY_REPEAT)
 
     def test_keys_become_cmd_vel_and_stop_when_they_end(self):
         self.listen('cmd_vel')
