@@ -58,7 +58,7 @@ packages_for() {
     lint) common='clang-format-14 clang-tidy-22 catkin-lint' ;;
     core_test) common='libgtest-dev' ;;
     demo) common='' ;;
-    papers) common='python3-matplotlib' ;;
+    papers) common='python3-matplotlib python3-numpy' ;;
     # What makes and tests the front end of pages (scripts/check_page). A node from elsewhere brings its own npm.
     web)
       common='nodejs chromium'
@@ -148,7 +148,7 @@ explain_unknown_system() {
   cat >&2 << 'TEXT'
 This system is none of Debian 11, 12, 13 or Ubuntu 20.04, 22.04, 24.04. Install these by hand, then run this again:
   a C++17 compiler, make, CMake 3.16, Python 3 (with matplotlib for plot_run.py)
-  Boost (program_options), Eigen 3.3, fmt, libpng, qhull, yaml-cpp, zlib (with their headers)
+  Boost (program_options), BZip2, Eigen 3.3, fmt, libpng, qhull, yaml-cpp, zlib (with their headers)
   ROS 1: catkin, roscpp, roslib, rospy, rosbag, tf2_ros, tf2_msgs, geometry_msgs, nav_msgs, sensor_msgs, std_msgs, std_srvs, rosgraph_msgs,
   visualization_msgs, diagnostic_updater, dynamic_reconfigure, message_generation, roslaunch, rosservice, rosbash, rosout; for the
   tests also rostest, rostopic, rosnode, rosmsg, GoogleTest, Google Benchmark, clang with its sanitizers' runtime;

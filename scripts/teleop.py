@@ -3,6 +3,7 @@
 
 Keys count while they repeat: half a second after the last one everything is 0. The terminal is left as it was, also by signals."""
 
+import math
 import os
 import select
 import signal
@@ -32,8 +33,12 @@ class Terminal:
         self.settings = termios.tcgetattr(descriptor)
 
     def __enter__(self):
-        self.take()
-        signal.signal(signal.SIGTSTP, self.suspend)
+        try:
+            self.take()
+            signal.signal(signal.SIGTSTP, self.suspend)
+        except BaseException:  # a signal ends the program here too
+            self.__exit__()
+            raise
         return self
 
     def take(self):
@@ -93,6 +98,17 @@ class Helm:
         return ahead, left
 
 
+def parameter(name, default, rule, holds):
+    value = rospy.get_param(name, default)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value) or not holds(value):
+        raise ValueError(f'{name} = {value}: {rule}')
+    return value
+
+
+def amount(name, default):
+    return parameter(name, default, 'must be 0 or greater', lambda value: value >= 0)
+
+
 class Output:
     """Publishes what is wanted as ~mode says: cmd_vel (m/s, rad/s) or thrust (N)."""
 
@@ -102,8 +118,8 @@ class Output:
             raise ValueError(f'~mode = {self.mode}: must be cmd_vel or thrust')
         kind = Twist if self.mode == 'cmd_vel' else ThrustCommand
         self.publisher = rospy.Publisher(self.mode, kind, queue_size=1)
-        self.speed, self.turn = rospy.get_param('~speed', 1.5), rospy.get_param('~turn_rate', 1.0)
-        self.rear, self.side = rospy.get_param('~rear_thrust', 4.5), rospy.get_param('~side_thrust', 1.5)
+        self.speed, self.turn = amount('~speed', 1.5), amount('~turn_rate', 1.0)
+        self.rear, self.side = amount('~rear_thrust', 4.5), amount('~side_thrust', 1.5)
 
     def publish(self, ahead, left):
         if self.mode == 'cmd_vel':
@@ -122,11 +138,11 @@ def stop(*_):
 
 
 def drive(terminal, output):
-    helm = Helm(rospy.get_param('~dead_man', 0.5))
+    helm = Helm(parameter('~dead_man', 0.5, 'must be greater than 0', lambda value: value > 0))
     print(HELP, flush=True)
     deadline = time.monotonic()
     while not rospy.is_shutdown():
-        deadline += 1 / RATE
+        deadline = max(deadline, time.monotonic() - 1 / RATE) + 1 / RATE  # none is made up for after Ctrl-Z
         while time.monotonic() < deadline:
             typed = terminal.keys(max(0.0, deadline - time.monotonic()))
             if typed is None or 'q' in typed:

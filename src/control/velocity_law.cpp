@@ -21,7 +21,7 @@ Vector3 asVector(const PlanarVelocity& velocity) {
 }
 
 AllocationProblem allocationOf(const VelocityPlant& plant) {
-  demand(plant.actuators.size() <= kMostActuators, "a craft has at most 8 actuators");
+  demand(plant.actuators.size() <= kMostActuators, "an allocation has at most 8 actuators");
   AllocationProblem problem;
   problem.count = plant.actuators.size();
   Vector3 span = Vector3::Zero();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 #include "hovercraft_sim/cushion/gap.h"
@@ -119,13 +120,12 @@ Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
 double CushionFan::speedAt(double time) const {
   if (speeds.empty()) return speed;
   if (!(time > speeds.front().time)) return speeds.front().speed;
-  for (std::size_t i = 1; i < speeds.size(); ++i) {
-    const FanSpeedPoint& from = speeds[i - 1];
-    const FanSpeedPoint& to = speeds[i];
-    if (time >= to.time) continue;
-    return from.speed + (time - from.time) / (to.time - from.time) * (to.speed - from.speed);
-  }
-  return speeds.back().speed;
+  const auto next =
+      std::upper_bound(speeds.begin(), speeds.end(), time,
+                       [](double t, const FanSpeedPoint& point) { return t < point.time; });
+  if (next == speeds.end()) return speeds.back().speed;
+  const FanSpeedPoint& from = *std::prev(next);
+  return from.speed + (time - from.time) / (next->time - from.time) * (next->speed - from.speed);
 }
 
 double CushionFan::fullSpeed() const {

@@ -125,8 +125,10 @@ void LayoutParser::addField(MessageLayout::Message& message, const std::string& 
   if (field.base == MessageLayout::Base::kMessage && is_long) {
     field.shown = MessageLayout::kMostElements;
   }
-  // Beyond this nobody looks at single ones.
-  if (message.width + field.shown * field.width > MessageLayout::kMostLeaves) field.shown = 0;
+  // Beyond this nobody looks at single ones; and what has no numbers has nothing to look at,
+  // however often it is repeated.
+  const bool is_too_wide = message.width + field.shown * field.width > MessageLayout::kMostLeaves;
+  if (is_too_wide || field.width == 0) field.shown = 0;
   message.width += field.shown * field.width;
   const std::size_t least = field.length == MessageLayout::kAnyLength ? 4
                             : field.length >= 0

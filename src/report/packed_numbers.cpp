@@ -88,22 +88,4 @@ PackedColumn PackedNumbers::addTimes(const std::vector<std::int64_t>& times_ns,
   return column;
 }
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static const char* const digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      group = (group << 8U) | (i + j < bytes.size() ? bytes[i + j] : 0U);
-    }
-    for (unsigned j = 0; j < 4; ++j) {
-      const bool is_padding = i + j > bytes.size();
-      text += is_padding ? '=' : digits[(group >> (18U - 6U * j)) & 63U];
-    }
-  }
-  return text;
-}
-
 }  // namespace hovercraft_ros

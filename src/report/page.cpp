@@ -7,6 +7,7 @@
 #include "hovercraft_sim/report/front_end.h"
 #include "hovercraft_sim/report/json_text.h"
 #include "hovercraft_sim/report/packed_numbers.h"
+#include "hovercraft_sim/sim/base64.h"
 #include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft_ros {
@@ -40,7 +41,8 @@ class PageWriter {
     for (const BodyComparison& comparison : comparisons) writeComparison(comparison);
     json_.endList();
     json_.key("stride").value(greatest_stride_);
-    json_.key("numbers").value(base64(numbers_.bytes()));
+    json_.key("numbers").value(
+        hovercraft::base64Text({numbers_.bytes().begin(), numbers_.bytes().end()}));
     json_.endObject();
     return json_.text();
   }

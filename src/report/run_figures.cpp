@@ -56,19 +56,22 @@ FigureRange orUnit(const FigureRange& range) {
 /// The lines of a curve: of each column of half a unit its first, least, greatest and last value.
 class CurveTracer {
  public:
-  CurveTracer(const FigureAxes& axes, const RunPanel& panel) : axes_(axes), panel_(panel) {}
+  /// @param end s: what comes later, or before 0, is a gap.
+  CurveTracer(const FigureAxes& axes, const RunPanel& panel, double end)
+      : axes_(axes), panel_(panel), end_(end) {}
 
   std::vector<std::vector<FigurePoint>> trace(const RunCurve& curve) {
     lines_.clear();
     begin_ = true;
     for (std::size_t i = 0; i < curve.values.size(); ++i) {
       const double value = curve.values[i];
-      if (!(std::abs(value) <= kGreatestDrawn)) {
+      const double time = kNanosecond * static_cast<double>(panel_.times_ns[i]);
+      const bool is_within = time >= 0.0 && time <= end_;
+      if (!is_within || !(std::abs(value) <= kGreatestDrawn)) {
         endColumn();
         begin_ = true;
         continue;
       }
-      const double time = kNanosecond * static_cast<double>(panel_.times_ns[i]);
       if (curve.is_demand && !begin_) add(axes_.place(time, held_));
       add(axes_.place(time, value));
       held_ = value;
@@ -107,15 +110,17 @@ class CurveTracer {
 
   const FigureAxes& axes_;
   const RunPanel& panel_;
+  double end_;
   std::vector<std::vector<FigurePoint>> lines_;
   std::vector<FigurePoint> column_;
   bool begin_ = true;
   double held_ = 0.0;
 };
 
-void drawPanel(const FigureAxes& axes, const RunPanel& panel, bool is_other, Figure& figure) {
+void drawPanel(const FigureAxes& axes, const RunPanel& panel, bool is_other, double end,
+               Figure& figure) {
   std::vector<std::string> labels;
-  CurveTracer tracer(axes, panel);
+  CurveTracer tracer(axes, panel, end);
   for (const RunCurve& curve : panel.curves) {
     const auto at = std::find(labels.begin(), labels.end(), curve.label);
     const auto color = static_cast<std::size_t>(at - labels.begin());
@@ -166,8 +171,8 @@ Figure panelFigure(const RunPanel& panel, const RunPanel* other, double end) {
   figure.texts.push_back(
       {{kLeftTop.x, 18.0}, panel.title + unit, 13.0, FigureAnchor::kBegin, false, kText});
   drawLegend(panel, other != nullptr, figure);
-  drawPanel(axes, panel, false, figure);
-  if (other != nullptr) drawPanel(axes, *other, true, figure);
+  drawPanel(axes, panel, false, end, figure);
+  if (other != nullptr) drawPanel(axes, *other, true, end, figure);
   return figure;
 }
 

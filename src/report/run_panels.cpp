@@ -221,6 +221,10 @@ CurvePlace placeOf(const TopicSamples& samples, const std::string& path) {
   } else {
     place = {withoutIndices(path), own, labelOf(samples, path)};
   }
+  // Each actuator has a unit of its own.
+  const std::string last = lastOf(path);
+  const bool is_level = last == "applied" || last == "commanded";
+  if (samples.type == "hovercraft_sim/ActuatorStatusArray" && is_level) place.unit.clear();
   const OneKind* const one_kind = oneKindOf(samples.type);
   if (one_kind != nullptr) {
     place.title = one_kind->title;

@@ -11,6 +11,17 @@
 #include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft_ros {
+namespace {
+
+constexpr double kFastest = 1e3;  // m/s, rad/s: beyond it a message is no motion of a craft
+constexpr const char* kRule = "dropped: must be finite, and at most 1000 m/s or rad/s";
+
+bool isMotion(const hovercraft::PlanarVelocity& velocity) {
+  return std::abs(velocity.u) <= kFastest && std::abs(velocity.v) <= kFastest &&
+         std::abs(velocity.r) <= kFastest;
+}
+
+}  // namespace
 
 VelocityNodeConfig parseVelocityNodeConfig(const hovercraft::ConfigNode& parameters,
                                            const std::string& node_name) {
@@ -46,39 +57,40 @@ VelocityNode::VelocityNode(ros::NodeHandle& handle, const VelocityNodeConfig& co
 
 void VelocityNode::take(const geometry_msgs::Twist& command) {
   const hovercraft::PlanarVelocity wanted = {command.linear.x, command.linear.y, command.angular.z};
-  if (!std::isfinite(wanted.u) || !std::isfinite(wanted.v) || !std::isfinite(wanted.r)) {
-    if (warnings_.isDue(steadyNow())) ROS_WARN("cmd_vel: dropped: must be finite");
+  if (!isMotion(wanted)) {
+    if (warnings_.isDue(steadyNow())) ROS_WARN("cmd_vel: %s", kRule);
     return;
   }
   command_ = wanted;
-  commanded_ = last_;
+  commanded_ns_ = last_ns_;
   has_new_command_ = true;
 }
 
 /// Time counts from the odometry that was there when the command came, or from the next one.
-bool VelocityNode::isDead(const ros::Time& now) const {
-  return !commanded_ || (now - *commanded_).toSec() > config_.timeout;
+bool VelocityNode::isDead(std::int64_t now_ns) const {
+  return !commanded_ns_ || 1e-9 * static_cast<double>(now_ns - *commanded_ns_) > config_.timeout;
 }
 
 void VelocityNode::answer(const nav_msgs::Odometry& odometry) {
-  const ros::Time& now = odometry.header.stamp;
+  const auto now_ns = static_cast<std::int64_t>(odometry.header.stamp.toNSec());
   const auto& twist = odometry.twist.twist;
-  if (!std::isfinite(twist.linear.x) || !std::isfinite(twist.linear.y) ||
-      !std::isfinite(twist.angular.z)) {
-    if (warnings_.isDue(steadyNow())) ROS_WARN("odom: dropped: must be finite");
+  const hovercraft::PlanarVelocity measured = {twist.linear.x, twist.linear.y, twist.angular.z};
+  if (!isMotion(measured)) {
+    if (warnings_.isDue(steadyNow())) ROS_WARN("odom: %s", kRule);
     return;
   }
-  const double dt = last_ ? (now - *last_).toSec() : 0.0;
-  last_ = now;
-  if (has_new_command_ && !commanded_) commanded_ = now;
+  const double dt = last_ns_ ? 1e-9 * static_cast<double>(now_ns - *last_ns_) : 0.0;
+  last_ns_ = now_ns;
+  // Time began anew: what was asked for before it counts no more.
+  if (dt < 0.0 && !has_new_command_) commanded_ns_.reset();
+  if (has_new_command_ && (!commanded_ns_ || dt < 0.0)) commanded_ns_ = now_ns;
   has_new_command_ = false;
   hovercraft_sim::ThrustCommand command;
-  command.header.stamp = now;
-  if (isDead(now) || dt < 0.0) {
+  command.header.stamp = odometry.header.stamp;
+  if (isDead(now_ns) || dt < 0.0) {
     law_.reset();
   } else {
-    const hovercraft::Thrusts f =
-        law_.thrusts(command_, {twist.linear.x, twist.linear.y, twist.angular.z}, dt);
+    const hovercraft::Thrusts f = law_.thrusts(command_, measured, dt);
     command.rear = f[0];
     command.left = f[1];
     command.right = f[2];

@@ -90,6 +90,8 @@ double RayGround::hitMap(const Vector3& p_W, const Vector3& direction_W, double 
   double t0 = 0.0;
   double f0 = above(0.0);
   while (f0 > 0.0 && t0 < farthest) {
+    // It has left the ground below for good.
+    if (direction_W.z() >= 0.0 && p_W.z() + t0 * direction_W.z() > highest_) return kMiss;
     const double t1 = std::min({along_x.next, along_y.next, farthest});
     const double f1 = above(t1);
     const double share = firstZero(f0, above(0.5 * (t0 + t1)), f1);

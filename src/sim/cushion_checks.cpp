@@ -44,8 +44,10 @@ class CushionCheck {
       checkLift();
       return;
     }
-    if (!scenario_.ground && !scenario_.world) {
-      reader_.fail("", "needs something to blow on in model: spatial: a ground: or a world:");
+    if (!scenario_.ground && (!scenario_.world || scenario_.world->obstacles.empty())) {
+      reader_.fail("",
+                   "needs something to blow on in model: spatial: a ground: or a world: with "
+                   "obstacles");
     }
     if (cushion_.cells.size() == 1 && cushion_.skirt.stiffness == 0.0) {
       reader_.fail("",

@@ -149,7 +149,8 @@ bool readHead(PngRead& read) {
   // NOLINTNEXTLINE(cert-err52-cpp): libpng's way to report errors.
   if (setjmp(png_jmpbuf(read.png)) != 0) return false;
   png_read_info(read.png, read.info);
-  read.is_grey = png_get_color_type(read.png, read.info) == PNG_COLOR_TYPE_GRAY;
+  read.is_grey = png_get_color_type(read.png, read.info) == PNG_COLOR_TYPE_GRAY &&
+                 png_get_valid(read.png, read.info, PNG_INFO_tRNS) == 0;
   read.columns = png_get_image_width(read.png, read.info);
   read.row_count = png_get_image_height(read.png, read.info);
   read.depth = png_get_bit_depth(read.png, read.info);

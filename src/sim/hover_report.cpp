@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/cushion_builder.h"
 #include "hovercraft_sim/sim/number_text.h"
@@ -15,7 +16,7 @@ namespace {
 
 constexpr Integrator kIntegrators[] = {Integrator::kEuler, Integrator::kSemiImplicitEuler,
                                        Integrator::kHeun, Integrator::kRungeKutta4};
-constexpr double kTurn = 6.283185307179586;  // rad
+constexpr double kTurn = 2.0 * kPi;  // rad
 
 /// In the order of HoverStatus.
 constexpr const char* kStatusNames[] = {"hovers", "too_heavy", "too_light", "not_level"};

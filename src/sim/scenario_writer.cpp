@@ -64,7 +64,9 @@ std::string massText(const VehicleScenario& vehicle) {
 }
 
 std::string engineText(const VehicleScenario& vehicle) {
-  if (!vehicle.has_engine[0] && !vehicle.has_engine[1] && !vehicle.has_engine[2]) return "";
+  if (!vehicle.has_engine[0] && !vehicle.has_engine[1] && !vehicle.has_engine[2]) {
+    return vehicle.actuators.empty() ? "    engines: {}\n" : "";
+  }
   std::string yaml = "    engines:\n";
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     if (!vehicle.has_engine[i]) continue;

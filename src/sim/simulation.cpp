@@ -166,7 +166,6 @@ void Simulation::applyDueCommands() {
   }
 }
 
-/// What acts on each body in the step that begins now.
 /// The speeds of the fans over the step, at its stages.
 void Simulation::turnFans(const Cushion& cushion, FanSpeedCourse& course) const {
   const double start = toSeconds(timeNs());
@@ -176,6 +175,7 @@ void Simulation::turnFans(const Cushion& cushion, FanSpeedCourse& course) const 
   course.end = cushion.describedSpeeds(start + h);
 }
 
+/// What acts on each body in the step that begins now.
 void Simulation::prepareInputs() {
   std::size_t vehicle = 0;
   for (const EngineStates& engines : state_.engines) {

@@ -167,7 +167,8 @@ Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick 
   const std::int64_t engines = reader.wholeNumberOr(0, "engines");
   const bool has_actuators = reader.has("actuators");
   if (engines < (has_actuators ? 0 : 1) || engines > kAllEngines) {
-    reader.fail("engines", "must be 1 to 7: the sum of rear 1, left 2, right 4");
+    reader.fail("engines", fmt::format("must be {} to 7: the sum of rear 1, left 2, right 4",
+                                       has_actuators ? 0 : 1));
   }
   command.engines = static_cast<EngineMask>(engines);
   command.thrusts = reader.vector("thrusts");

@@ -41,6 +41,22 @@ struct Read {
   const LeafValue& at(const std::string& path) const { return values.at(*layout.find(path)); }
 };
 
+TEST(MessageLayout, WhatHoldsNoNumbersIsNotGoneThrough) {
+  // 31 levels of which each holds the next one twice, or 16 times: 2^31 paths to no number.
+  for (const std::string& array : {std::string(), std::string("[16]")}) {
+    std::string definition;
+    for (int level = 1; level <= 31; ++level) {
+      const std::string next = "p/L" + std::to_string(level) + array;
+      definition += next + " a\n" + next + " b\n";
+      definition += std::string(80, '=') + "\nMSG: p/L" + std::to_string(level) + "\n";
+    }
+    const MessageLayout layout("p/L0", definition);
+    EXPECT_TRUE(layout.leaves().empty());
+    std::vector<LeafValue> values;
+    EXPECT_TRUE(layout.read(nullptr, 0, values));
+  }
+}
+
 TEST(MessageLayout, ReadsWhatRosWrote) {
   hovercraft_sim::State state;
   state.header.stamp.fromNSec(1'600'000'000'123'456'789);

@@ -130,18 +130,5 @@ TEST(PackedNumbers, EveryNthValueIsTaken) {
   EXPECT_EQ(Unpacker(packed.bytes(), column).times(), (std::vector<std::int64_t>{0, 3, 6}));
 }
 
-// The test vectors of RFC 4648, section 10.
-TEST(Base64, IsThatOfTheStandard) {
-  const auto of = [](const std::string& text) { return base64({text.begin(), text.end()}); };
-  EXPECT_EQ(of(""), "");
-  EXPECT_EQ(of("f"), "Zg==");
-  EXPECT_EQ(of("fo"), "Zm8=");
-  EXPECT_EQ(of("foo"), "Zm9v");
-  EXPECT_EQ(of("foob"), "Zm9vYg==");
-  EXPECT_EQ(of("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(of("\xff\xfe\xfd"), "//79");
-}
-
 }  // namespace
 }  // namespace hovercraft_ros

@@ -88,6 +88,16 @@ class SensorBag : public ::testing::Test {
   TestFolder folder_;
 };
 
+TEST_F(SensorBag, HasTheSamplesAlsoBesideTheOtherFiles) {
+  SimulateRequest asked = request("hover.bag");
+  asked.scenario = "config/rc5.yaml";
+  asked.sets = {"vehicles.rc5.sensors={imu: {kind: imu, rate: 100}}"};
+  asked.contacts = folder_.file("contacts.csv");
+  asked.cushion = folder_.file("cells.csv");
+  asked.sensors = folder_.file("samples");
+  EXPECT_EQ(read<sensor_msgs::Imu>(run(asked), "/rc5/imu/data").size(), 200U);
+}
+
 TEST_F(SensorBag, HoldsEachSampleAtTheTimeOfItsDelivery) {
   const std::string bag = run(request("run.bag"));
   const auto imus = read<sensor_msgs::Imu>(bag, std::string(kCraft) + "imu/data");

@@ -61,7 +61,7 @@ class SensorsTest(unittest.TestCase):
             cls.reached = step(STEPS // 10).tick
             wait_until(lambda: cls.count(CRAFT + 'state') >= cls.reached // 10, 'all states')
         wait_until(lambda: cls.count(CRAFT + 'imu/data') >= (2 * STEPS - 2) // 5, 'all samples of the IMU')
-        wait_until(lambda: cls.count(CRAFT + 'fix_velocity') >= 19, 'all fixes')
+        wait_until(lambda: cls.count(CRAFT + 'fix') >= 19 and cls.count(CRAFT + 'fix_velocity') >= 19, 'all fixes')
         wait_until(lambda: cls.count(CRAFT + 'magnetic_field') >= 200 and cls.count(CRAFT + 'odom') >= 200, 'all')
 
     @classmethod

@@ -11,8 +11,8 @@ import rospkg
 import rospy
 import rostest
 import yaml
-from geometry_msgs.msg import Twist
-from hovercraft_sim.msg import AppliedCommand, EngineStatus, RunEvent, State
+from geometry_msgs.msg import Twist, TwistWithCovariance, Vector3
+from hovercraft_sim.msg import AppliedCommand, EngineStatus, RunEvent, State, ThrustCommand
 from nav_msgs.msg import Odometry
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
@@ -71,6 +71,42 @@ class VelocityControllerTest(unittest.TestCase):
         # A command is on its way for some periods of the lockstep, more on a busy machine.
         self.assertLess(max(on), last + 1.5)
         self.assertEqual(self.engines[-1].rear.commanded, 0)
+
+    def test_what_no_craft_does_is_dropped_and_time_may_begin_anew(self):
+        thrusts = []
+        odom = rospy.Publisher('/alone/odom', Odometry, queue_size=10)
+        helm = rospy.Publisher('/alone/cmd_vel', Twist, queue_size=10)
+        wait_for_connections(odom, helm, rospy.Subscriber('/alone/thrust', ThrustCommand, thrusts.append))
+        self.now = 100.0  # s
+
+        def answer(speed=0.0):
+            message = Odometry()
+            message.header.stamp = rospy.Time.from_sec(self.now)
+            message.twist.twist.linear.x = speed
+            count = len(thrusts)
+            odom.publish(message)
+            wait_until(lambda: len(thrusts) > count, 'an answer')
+            self.now += 0.01
+            return thrusts[-1].rear
+
+        def drives(speed, holds):
+            """Asks for a speed again and again: a command is on its way for some answers."""
+            command = Twist()
+            command.linear.x = speed
+            helm.publish(command)
+            return holds(answer())
+
+        wait_until(lambda: drives(0.5, lambda rear: rear > 0), 'a thrust')
+        for _ in range(20):
+            drives(1e308, lambda rear: True)
+        wait_until(lambda: drives(0.5, lambda rear: rear > 0), 'a thrust after a command that no craft can follow')
+        odom.publish(Odometry(twist=TwistWithCovariance(twist=Twist(linear=Vector3(x=1e308)))))
+        wait_until(lambda: drives(0.5, lambda rear: rear > 0), 'a thrust after an odometry that cannot be')
+        while answer() > 0:  # until nobody is at the helm
+            pass
+        wait_until(lambda: drives(0.5, lambda rear: rear > 0), 'a thrust')
+        self.now = 1.0  # the simulation began anew
+        self.assertEqual([answer() for _ in range(20)], [0.0] * 20)
 
     def test_the_configuration_for_robot_localization_has_its_shape(self):
         """Its schema only: Debian has no robot_localization."""

@@ -135,6 +135,13 @@ TEST(Engines, OneThatIsLeftOutIsAsOneWithoutThrust) {
   EXPECT_EQ(toYaml(parsed(toYaml(scenario))), toYaml(scenario));
 }
 
+TEST(Engines, ThatAreNoneAreWrittenAsSuch) {
+  for (const char* none : {"    engines: {}\n", "    actuators: {}\n"}) {
+    const std::string text = toYaml(parsed(std::string(kPlate) + none));
+    EXPECT_EQ(toYaml(parsed(text)), text);
+  }
+}
+
 TEST(Engines, NoneAtAllNeedsOtherActuators) {
   EXPECT_EQ(complaintAbout(kPlate), "test.yaml: vehicles.craft.engines: the key is missing");
 }
@@ -152,7 +159,7 @@ TEST(LiftFan, RunsFromTheStartAndFollowsWithTheExactLagOfSpeed) {
   EXPECT_NEAR(simulation.engineReport(0, kLift).applied, 0.3 + 0.7 * std::exp(-1.0 / 0.4), 1e-13);
 }
 
-TEST(LiftFan, ALostCommandDoesNotDropTheCraft) {
+TEST(LiftFan, ALostCommandDoesNotStopIt) {
   Simulation simulation(parsed(fourKinds()));
   simulation.push(commandFor(kLift, 0.8));
   simulation.push(commandFor(kBow, 1.0));

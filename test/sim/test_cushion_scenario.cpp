@@ -153,6 +153,7 @@ TEST(CushionScenario, ShippedScenesSayNothing) {
 
 TEST(CushionScenario, CraftWithoutWhatACushionNeedsIsRefused) {
   expectComplaint(with(with(cushionText(), kGround, ""), kHull, ""), "needs something to blow on");
+  expectComplaint(with(cushionText(), kGround, "world: {}\n"), "needs something to blow on");
   expectComplaint(with(cushionText(), "gravity: [0, 0, -9.80665]\n", ""), "needs gravity");
   expectComplaint(
       with(with(cushionText(), "columns: 2, rows: 2, ", ""), "stiffness: 2500", "stiffness: 0"),

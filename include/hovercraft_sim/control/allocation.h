@@ -8,7 +8,7 @@
 
 namespace hovercraft {
 
-/// Most actuators of one craft.
+/// Most actuators of one allocation.
 constexpr std::size_t kMostActuators = 8;
 
 /// Which thrusts make a wrench. A wrench in the plane is (F_x, F_y, M_z) in B: N, N, N m.

@@ -25,7 +25,7 @@ constexpr std::array<const char*, kEngineCount> kEngineNames = {"rear", "left", 
 constexpr double kDefaultCommandTimeout = 0.5;
 
 /// How an engine, or another actuator, follows its commands, as the scenario describes it. What
-/// lags is a thrust in N, or with another actuator its level (actuators.h).
+/// lags is a thrust in N, or with another actuator its level (ActuatorScenario).
 struct EngineParameters {
   Vector3 p_HE = Vector3::Zero();        // position in the hull frame (base_link), m
   Vector3 direction = Vector3::UnitX();  // unit vector of positive thrust, in B

@@ -83,8 +83,8 @@ struct PropellerForce {
 
 /// A rudder in the slipstream of a fan or propeller: V_d = V/2 + sqrt(V^2/4 + T/(rho A)) by
 /// momentum theory, q = rho V_d^2/2, lift q S C_la delta across the stream, drag q S (C_d0 + k
-/// delta^2) along it. V and T are those of the fan; without one V_d = V, and no force where that is
-/// not forwards.
+/// delta^2) along it. T is that of the fan, V that of its own place; without a fan V_d = V, and no
+/// force where that is not forwards.
 struct RudderForce {
   std::size_t id = 0;  // its level is the angle delta, rad, right-handed about the hinge
   ForcePlace place;    // direction: that of the fan's thrust, against the stream

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "hovercraft_sim/math/export.h"
@@ -43,8 +42,5 @@ class HOVERCRAFT_PUBLIC PackedNumbers {
   std::vector<std::uint8_t> bytes_;
   std::uint64_t zeros_ = 0;
 };
-
-/// RFC 4648.
-HOVERCRAFT_PUBLIC std::string base64(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace hovercraft_ros

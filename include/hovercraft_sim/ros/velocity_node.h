@@ -32,7 +32,8 @@ parseVelocityNodeConfig(const hovercraft::ConfigNode& parameters, const std::str
 /// From `cmd_vel` (geometry_msgs/Twist: m/s, rad/s) and `odom` (nav_msgs/Odometry, twist of
 /// base_link in its own axes) to `thrust`: each odometry is answered by one ThrustCommand with its
 /// stamp, so that it works in lockstep. Time is that of the stamps. No command for `timeout` of it:
-/// thrusts 0. A message with a number that is not finite is dropped and warned about.
+/// thrusts 0, and likewise where that time goes back. A message with a number that is not finite,
+/// or beyond what any craft does (1,000 m/s or rad/s), is dropped and warned about.
 class HOVERCRAFT_PUBLIC VelocityNode {
  public:
   VelocityNode(ros::NodeHandle& handle, const VelocityNodeConfig& config);
@@ -42,13 +43,13 @@ class HOVERCRAFT_PUBLIC VelocityNode {
  private:
   void take(const geometry_msgs::Twist& command);
   void answer(const nav_msgs::Odometry& odometry);
-  bool isDead(const ros::Time& now) const;
+  bool isDead(std::int64_t now_ns) const;
 
   VelocityNodeConfig config_;
   hovercraft::VelocityLaw law_;
   hovercraft::PlanarVelocity command_;
-  std::optional<ros::Time> last_;       // stamp of the last odometry
-  std::optional<ros::Time> commanded_;  // stamp of the odometry after which the last command came
+  std::optional<std::int64_t> last_ns_;       // stamp of the last odometry
+  std::optional<std::int64_t> commanded_ns_;  // of that after which the last command came
   bool has_new_command_ = false;
   hovercraft_sim::ThrustCommand answer_;  // the last one
   WarningLimiter warnings_;

@@ -23,6 +23,7 @@ class HOVERCRAFT_PUBLIC CushionCsvWriter : public StateSink {
   void state(const Simulation& simulation) override;
   void applied(const Command& command) override { next_->applied(command); }
   void contact(const ContactEvent& event) override { next_->contact(event); }
+  void sample(const SensorSample& sample) override { next_->sample(sample); }
   void close() override;
 
  private:

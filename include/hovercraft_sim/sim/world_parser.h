@@ -12,8 +12,8 @@ namespace hovercraft {
 VehicleScenario parseMovingBody(const std::string& name, const ConfigReader& reader,
                                 const ScenarioSource& source, BodyModel model);
 
-/// Reads `world`, and `hull` and `material` of the vehicles that were read before; nothing without
-/// `world`, where these keys are refused.
+/// Reads `world`, and `hull` and `material` of the vehicles that were read before; without `world`
+/// the hulls alone where there is a `ground`, and else nothing: these keys are refused then.
 /// @param top the whole scenario. @throws std::invalid_argument, also if bodies overlap at the
 /// start.
 void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario& scenario);

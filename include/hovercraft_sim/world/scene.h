@@ -10,6 +10,7 @@
 
 #include "hovercraft_sim/collision/motion.h"
 #include "hovercraft_sim/hovercraft/step_inputs.h"
+#include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/world/world_types.h"
 
 namespace hovercraft {
@@ -30,10 +31,10 @@ class Scene {
   bool isFixed(std::int32_t index) const {
     return static_cast<std::size_t>(index) >= bodies_.size();
   }
-  const std::string& nameOf(std::int32_t index) const;
+  HOVERCRAFT_PUBLIC const std::string& nameOf(std::int32_t index) const;
   /// In the body's frame B. Only where bodies meet.
-  const ConvexPolyhedron& hullOf(std::int32_t index) const;
-  int materialOf(std::int32_t index) const;
+  HOVERCRAFT_PUBLIC const ConvexPolyhedron& hullOf(std::int32_t index) const;
+  HOVERCRAFT_PUBLIC int materialOf(std::int32_t index) const;
   const ContactMaterial& lawOf(const ScenePair& pair) const {
     return rules_.pair(materialOf(pair.first), materialOf(pair.second));
   }
