@@ -14,7 +14,7 @@ Vector3 planarPart(const Vector3& linear, const Vector3& angular) {
   return {linear.x(), linear.y(), angular.z()};
 }
 
-VelocityPlant::Actuator parseActuator(const std::string& name, const ConfigReader& reader) {
+VelocityPlant::Actuator parsePlantActuator(const std::string& name, const ConfigReader& reader) {
   reader.allowOnly({"x", "y", "direction_x", "direction_y", "min_thrust", "max_thrust"});
   VelocityPlant::Actuator actuator;
   actuator.name = name;
@@ -88,7 +88,7 @@ VelocityParameters parseVelocityParameters(const ConfigReader& reader) {
   plant.quadratic_drag = reader.vectorOr(Vector3::Zero(), "quadratic_drag", kNotNegative);
   const ConfigReader actuators = reader.map("actuators");
   for (const char* name : kEngineNames) {
-    plant.actuators.push_back(parseActuator(name, actuators.map(name)));
+    plant.actuators.push_back(parsePlantActuator(name, actuators.map(name)));
   }
   actuators.allowOnly(std::vector<std::string>(kEngineNames.begin(), kEngineNames.end()));
   parameters.gains.response_time = reader.vector("response_time", kPositive);

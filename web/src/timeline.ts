@@ -79,6 +79,7 @@ export class Timeline {
       context.fillRect(room + (width * time) / (this.player.end || 1) - 0.75, height * (1 - share), 1.5, height * share);
     };
     for (const { time, kind } of this.run.contacts) draw(time, theme.alarm, kind === 'rest' ? 0.5 : 1);
+    for (const { time } of this.run.manoeuvres) draw(time, theme.text, 0.7);
     for (const { time } of this.run.marks) draw(time, theme.text, 1);
   }
 }
