@@ -49,9 +49,11 @@ struct CushionFan {
   std::string name;
   FanCurve curve;                          // of one cell's share
   Vector3 p_HI = Vector3::Zero();          // intake, in the hull frame, m
-  double speed = 1.0;                      // share of the nominal speed, >= 0
+  double speed = 1.0;                      // share of the nominal speed, >= 0; of one that an
+                                           // actuator turns the greatest
   std::vector<FanSpeedPoint> speeds = {};  // instead of it: in between on straight lines, held at
                                            // the ends; times ascend. Empty: always `speed`
+  std::string lift_fan = {};  // the actuator of the craft that turns it instead; empty: none
 
   /// @param time s.
   double speedAt(double time) const;
@@ -124,7 +126,7 @@ class HOVERCRAFT_PUBLIC Cushion {
               CellReport* reports) const;
   void planarReport(const FanSpeeds& speeds, double load, CellReport* reports) const;
 
-  /// The fans' speeds as they are described, at a time, s.
+  /// The fans' speeds as they are described, at a time, s. Those that actuators turn: the greatest.
   FanSpeeds describedSpeeds(double time) const;
   /// The greatest that they are described with.
   FanSpeeds fullSpeeds() const;
