@@ -18,7 +18,7 @@ import re
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
 DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md',
-             'doc/craft.md')
+             'doc/craft.md', 'doc/manoeuvres.md', 'doc/api.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -61,7 +61,7 @@ RULES = (
     Rule(r'roscore .*', until='/rosout_agg', stays=True),
     Rule(r'markers_node .*', beside=(ROSCORE,), until='/hovercraft_markers/markers', stays=True),
     Rule(r'rviz .*', skip='it opens a window'),
-    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --hold|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
+    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --(hold|pilot)|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
          skip=NAMED),
     Rule(r'roslaunch hovercraft_sim sim\.launch set:=.*', beside=(), until='/hovercraft_sim/scenario'),
     # CONTRIBUTING.md
@@ -69,6 +69,11 @@ RULES = (
     Rule(r'scripts/(fuzz|mutate) .*', skip=NAMED),
     Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
+    # doc/craft.md
+    Rule(r'roslaunch hovercraft_sim sim\.launch scenario:=\$PWD/config/lift_fan\.yaml', beside=(), until='/hovercraft_sim/scenario', stays=True),
+    Rule(r'rostopic pub -1 /rc5/actuators/lift .*', beside=('roslaunch hovercraft_sim sim.launch scenario:=$PWD/config/lift_fan.yaml',)),
+    # doc/manoeuvres.md
+    Rule(r'rosrun hovercraft_sim pilot .*', beside=('roslaunch hovercraft_sim sim.launch lockstep:=true',)),
     # doc/sensors.md
     Rule(r'roslaunch hovercraft_sim sim\.launch truth_odom:=truth/odom', beside=(), until='/hovercraft/truth/odom'),
     Rule(r'rosbag play --clock run\.bag', beside=(ROSCORE,)),
