@@ -73,6 +73,13 @@ void checkRequest(const SimulateRequest& request) {
   if (request.commands.empty() && request.duration.empty()) {
     throw std::invalid_argument("--duration is missing: without --commands it must be given");
   }
+  if (!isTopicOfCraft(request.truth_odom)) {
+    throw std::invalid_argument(
+        fmt::format("--truth-odom = {}: {}", request.truth_odom, kTruthOdomRuleText));
+  }
+  if (request.truth_odom != kOdomTopic && fs::path(request.output).extension() != ".bag") {
+    throw std::invalid_argument("--truth-odom: has a meaning with an --output that is a bag only");
+  }
   hovercraft::checkOutputs({{"--output", request.output},
                             {"--contacts", request.contacts},
                             {"--cushion", request.cushion}},
@@ -159,10 +166,10 @@ std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
                                                         hovercraft::InputKind::kFileOrStream);
 }
 
-std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
-                                                  const Scenario& scenario) {
+std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path, const Scenario& scenario,
+                                                  const std::string& truth_odom) {
   const std::string extension = fs::path(path).extension().string();
-  if (extension == ".bag") return std::make_unique<BagWriter>(path, scenario);
+  if (extension == ".bag") return std::make_unique<BagWriter>(path, scenario, truth_odom);
   if (extension != ".csv" && path != "-") {
     throw std::invalid_argument(
         fmt::format("--output = {}: must end in .csv or .bag, or be - for CSV on the standard "
@@ -175,7 +182,8 @@ std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
 /// The output and the CSV files beside it, each around those before.
 std::unique_ptr<hovercraft::StateSink> openOutputs(const SimulateRequest& request,
                                                    const Scenario& scenario) {
-  std::unique_ptr<hovercraft::StateSink> output = openOutput(request.output, scenario);
+  std::unique_ptr<hovercraft::StateSink> output =
+      openOutput(request.output, scenario, request.truth_odom);
   if (!request.contacts.empty()) {
     output = std::make_unique<hovercraft::ContactsCsvWriter>(request.contacts, std::move(output));
   }
