@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 #include <string>
 #include <vector>
@@ -264,13 +263,13 @@ Vector3 rmsUnder(const Scenario& scenario, const PlanarVelocity& command) {
 }
 
 // The table of doc/helm.md: a head wind of 0.3 m/s, gusts of sigma 0.2 m/s, lengths of MIL-F-8785C
-// at 3 m, 40 % of the top speed. The bounds are those numbers and a tenth of them; without feedback
-// the speed would follow such slow gusts, RMS over sigma about 1.
+// at 3 m, 40 % of the top speed. Each to a tenth. What is not controlled, sway of the first two,
+// follows such slow gusts: about 1.
 TEST(VelocityControl, InGustsTheSpeedErrsByAShareOfTheirSigma) {
   constexpr double kSigma = 0.2;
-  const std::map<std::string, Vector3> most = {{"hovercraft", {9.0, 9.0, 9.0}},
-                                               {"mvwt", {9.0, 9.0, 9.0}},
-                                               {"vectored_fans", {9.0, 9.0, 9.0}}};
+  const std::map<std::string, Vector3> measured = {{"hovercraft", {0.0602, 0.9971, 0.0}},
+                                                   {"mvwt", {0.0185, 1.0141, 0.0}},
+                                                   {"vectored_fans", {0.0396, 0.0351, 0.0643}}};
   for (const std::string& name : kShipped) {
     Scenario scenario = shippedCraft(name);
     scenario.wind = {-0.3, 0.0, 0.0};
@@ -278,12 +277,9 @@ TEST(VelocityControl, InGustsTheSpeedErrsByAShareOfTheirSigma) {
     scenario.gusts = GustParameters{GustModel::kDryden, level, level, {0.102, 3.05}};
     const double speed = 0.4 * Controlled(scenario).law().topSpeed(1.0);
     const Vector3 share = rmsUnder(scenario, {speed, 0.0, 0.0}) / kSigma;
-    RecordProperty(name, fmt::format("{:.4f} {:.4f} {:.5f}", share.x(), share.y(), share.z()));
-    EXPECT_LT(share.x(), 1.1 * most.at(name).x()) << name;
-    EXPECT_LT(share.z(), 1.1 * most.at(name).z() + 1e-9) << name;
-    EXPECT_GT(share.x(), 0.5 * most.at(name).x()) << name;
-    if (Controlled(scenario).law().controlsSway()) {
-      EXPECT_LT(share.y(), 1.1 * most.at(name).y()) << name;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double expected = measured.at(name)[axis];
+      EXPECT_NEAR(share[axis], expected, 0.1 * expected + 1e-6) << name << " " << axis;
     }
   }
 }
