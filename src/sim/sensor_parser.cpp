@@ -8,6 +8,7 @@
 #include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/noise.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/step_time.h"
 #include "hovercraft_sim/sim/yaml_text.h"
@@ -241,8 +242,9 @@ SensorParameters parseSensor(const std::string& name, const ConfigReader& reader
 
 /// What may wait of a sensor's samples, in numbers of a snapshot.
 double numbersOnTheirWay(const SensorParameters& sensor, const Scenario& scenario) {
-  const double samples = static_cast<double>(sensor.latency_ns) /
-                         static_cast<double>(sensor.period * scenario.step_ns);
+  const double samples =
+      static_cast<double>(sensor.latency_ns) /
+      (static_cast<double>(sensor.period) * static_cast<double>(scenario.step_ns));
   return (samples + 1.0) * (static_cast<double>(sampleFields(sensor).size()) + kNumbersOfASample);
 }
 
@@ -300,9 +302,22 @@ std::string sensorText(const SensorParameters& sensor) {
 
 }  // namespace
 
+namespace {
+
+/// Sensors have other noise than the gusts, too.
+void addGusts(const Scenario& scenario, NoiseStreams& streams) {
+  if (!scenario.gusts) return;
+  for (const std::string& body : bodyNames(scenario)) {
+    for (const std::string& channel : Gusts::channelsOf(body)) streams.add(channel);
+  }
+}
+
+}  // namespace
+
 void parseSensors(const ConfigReader& top, Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
   NoiseStreams streams;
+  addGusts(scenario, streams);
   double on_their_way = 0.0;
   for (VehicleScenario& vehicle : scenario.vehicles) {
     const ConfigReader reader = vehicles.map(vehicle.name);

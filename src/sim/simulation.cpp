@@ -9,6 +9,7 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/cushion_builder.h"
 #include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
@@ -62,10 +63,11 @@ Simulation::Simulation(Scenario scenario)
     fan_drives_.push_back(fanDrivesOf(vehicle));
   }
   inputs_.resize(world_.scene().bodies().size());
-  environment_.wind_W = scenario_.wind;
-  environment_.ground = ground_.get();
-  environment_.bare_ground = bare_ground_.get();
-  for (StepInputs& inputs : inputs_) inputs.environment = environment_;
+  for (StepInputs& inputs : inputs_) {
+    inputs.environment.ground = ground_.get();
+    inputs.environment.bare_ground = bare_ground_.get();
+  }
+  gusts_ = gustsOf(scenario_);
   sensors_ = sensorSuiteOf(scenario_);
   reset(scenario_.seed);
 }
@@ -86,15 +88,24 @@ void Simulation::reset(std::int64_t seed) {
     for (const VehicleScenario& body : scenario_.world->bodies) start(body);
     world_.partTouching(state_.bodies);
   }
+  state_.wind_W = scenario_.wind;
+  for (std::size_t body = 0; gusts_ && body < state_.bodies.size(); ++body) {
+    state_.gusts.push_back(gusts_->start(body, seed));
+  }
+  refreshWind();
   if (sensors_) state_.sensors = sensors_->start(seed, state_.tick, state_.bodies);
 }
 
 void Simulation::restore(const SimulationState& state) {
+  const FloatingPointEnvironment environment;
   demand(state.bodies.size() == inputs_.size() && state.engines.size() == vehicleCount(),
          "a state must come from the same scenario");
+  demand(state.gusts.size() == (gusts_ ? inputs_.size() : 0) && state.wind_W.allFinite(),
+         "what gusts remember must come from the same scenario");
   demand(!sensors_ || sensors_->fits(state.sensors, state.tick),
          "what sensors remember must come from the same scenario");
   state_ = state;
+  refreshWind();
 }
 
 void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
@@ -232,6 +243,7 @@ void Simulation::step() {
     takeResult();
   }
   ++state_.tick;
+  if (gusts_) blow();
   if (on_contact) {
     sortRecords();
     for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
@@ -333,15 +345,15 @@ void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const
   report.fan_speeds.clear();
   report.power = 0.0;
   if (report.cells.empty()) return;
-  const BodyMotion motion =
-      std::visit([&](const auto& state) { return model.motionInBody(state, environment_); },
-                 state_.bodies[vehicle]);
+  const Environment& around = inputs_[vehicle].environment;
+  const BodyMotion motion = std::visit(
+      [&](const auto& state) { return model.motionInBody(state, around); }, state_.bodies[vehicle]);
   const GroundForces& forces = *model.ground_forces;
   FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
   for (const FanDrive& drive : fan_drives_[vehicle]) {
     speeds[drive.fan] = fanSpeedAt(state_.engines[vehicle][drive.actuator].thrust);
   }
-  forces.report(motion, environment_, speeds, report.cells.data());
+  forces.report(motion, around, speeds, report.cells.data());
   for (const CellReport& cell : report.cells) report.power += cell.pressure * cell.flow;
   const std::size_t fan_count = forces.cushion()->parameters().fans.size();
   report.fan_speeds.assign(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(fan_count));
@@ -364,6 +376,7 @@ std::uint64_t Simulation::hash(std::size_t vehicle) const {
   for (const ExternalWrench& wrench : state_.wrenches) {
     if (wrench.vehicle == vehicle) hash.add(wrench);
   }
+  addAir(hash, vehicle, vehicle + 1);
   return hash.value();
 }
 
@@ -377,6 +390,7 @@ std::uint64_t Simulation::hash() const {
   for (const ExternalWrench& wrench : state_.wrenches) hash.add(wrench);
   for (std::size_t i = vehicleCount(); i < state_.bodies.size(); ++i) hash.add(state_.bodies[i]);
   for (const ContactMemory& contact : state_.contacts) hash.add(contact);
+  addAir(hash, 0, state_.bodies.size());
   return hash.value();
 }
 

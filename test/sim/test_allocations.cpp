@@ -53,6 +53,10 @@ TEST(Allocations, NoneInAStepOnACushionOverAnyGround) {
   }
 }
 
+TEST(Allocations, NoneInAStepOfGusts) {
+  EXPECT_EQ(allocationsWhileDriven(loadScenario("config/gusts.yaml")), 0);
+}
+
 TEST(Allocations, NoneInAStepWithEverySensor) {
   Simulation simulation(testing::scenarioOf(
       testing::sensedCraftYaml(testing::allSensors() + testing::laserSensor())));

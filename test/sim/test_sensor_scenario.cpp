@@ -184,6 +184,19 @@ TEST(SensorScenario, EveryRuleOfALaserToo) {
   }
 }
 
+// Each may have 400,000 values on their way alone: (60 s 1000 Hz + 1) (3 + 3) = 360,006.
+TEST(SensorScenario, AllTogetherHaveABoundForWhatIsOnItsWay) {
+  const std::string compass = ": {kind: magnetometer, rate: 1000, latency: 60, field: [0, 0, 0]}\n";
+  const auto with_sensors = [&](const std::string& sensors) {
+    return testing::messageOf(
+        [&] { testing::scenarioOf(testing::sensedCraftYaml("    sensors:\n" + sensors)); });
+  };
+  EXPECT_EQ(with_sensors("      a" + compass), "nothing was thrown");
+  EXPECT_EQ(with_sensors("      a" + compass + "      b" + compass),
+            "test: vehicles.craft.sensors.b.latency = 60: must be so short that at most 500000 "
+            "numbers of all sensors are on their way");
+}
+
 TEST(SensorScenario, AKeyOfAnotherKindIsUnknown) {
   for (const char* sensor :
        {"kind: imu, rate: 5, beams: 3", "kind: odometry, rate: 5, position: [0, 0, 0]",
