@@ -96,11 +96,13 @@ class PilotTest(unittest.TestCase):
     def test_the_measures_are_those_of_simulate(self):
         for live, simulated in zip(self.heard['manoeuvres'], self.recorded('manoeuvres')):
             self.assertEqual(live.text, simulated.text)
-            self.assertEqual(live.measures, simulated.measures)
+            values = [[(measure.name, measure.unit, measure.value) for measure in each.measures] for each in (live, simulated)]
+            self.assertGreater(len(values[0]), 2)
+            self.assertEqual(*values)
         self.assertIn(self.heard['manoeuvres'][0].text, self.simulated.stderr)
         self.assertEqual(self.printed, ''.join(message.text for message in self.heard['manoeuvres']))
 
 
 if __name__ == '__main__':
     rospy.init_node('pilot_test')
-    rostest.rosrun('hovercraft_sim', 'pilot', PilotTest)
+    rostest.rosrun('hovercraft_sim', 'pilot_flight', PilotTest)
