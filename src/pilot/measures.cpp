@@ -51,8 +51,8 @@ Reach reachOf(const PlanarMotion& begin, const PlanarMotion& motion, Side side) 
   const Heading axis = headingOf(begin.heading);
   const double dx = motion.x - begin.x;
   const double dy = motion.y - begin.y;
-  const double to_port = axis.cos * dy - axis.sin * dx;
-  return {axis.cos * dx + axis.sin * dy, side == Side::kPort ? to_port : -to_port};
+  const double to_port = axis.along * dy - axis.across * dx;
+  return {axis.along * dx + axis.across * dy, side == Side::kPort ? to_port : -to_port};
 }
 
 /// Means over the last half turn before the end: what the circle has become.

@@ -22,22 +22,22 @@ namespace {
 
 constexpr std::size_t kMostManoeuvres = 100;
 constexpr std::size_t kMostSteps = 1000;
-constexpr double kWholeTolerance = 1e-9;  // share of a whole number that typed digits may miss
+constexpr double kPeriodsTolerance = 1e-9;  // share of a whole number that typed digits may miss
 
-const NumberRule kTime = {[](double s) { return s > 0.0 && s <= kLongestManoeuvre; },
-                          "must be greater than 0 s and at most 3600 s"};
-const NumberRule kApproachTime = {[](double s) { return s >= 0.0 && s <= kLongestManoeuvre; },
+const NumberRule kTimeRule = {[](double s) { return s > 0.0 && s <= kLongestManoeuvre; },
+                              "must be greater than 0 s and at most 3600 s"};
+const NumberRule kApproachRule = {[](double s) { return s >= 0.0 && s <= kLongestManoeuvre; },
                                   "must be 0 to 3600 s"};
 const NumberRule kPeriodRule = {[](double s) { return s >= 1e-4 && s <= 1.0; },
                                 "must be 0.0001 to 1 s"};
-const NumberRule kAngle = {[](double degrees) { return degrees > 0.0 && degrees <= 180.0; },
-                           "must be greater than 0 and at most 180 degrees"};
-const NumberRule kHeadingAngle = {[](double degrees) { return degrees > 0.0 && degrees < 180.0; },
-                                  "must be greater than 0 and less than 180 degrees"};
-const NumberRule kTurn = {[](double degrees) { return degrees >= 180.0 && degrees <= 7200.0; },
-                          "must be 180 to 7200 degrees"};
+const NumberRule kHelmAngleRule = {[](double degrees) { return degrees > 0.0 && degrees <= 180.0; },
+                                   "must be greater than 0 and at most 180 degrees"};
+const NumberRule kHeadingRule = {[](double degrees) { return degrees > 0.0 && degrees < 180.0; },
+                                 "must be greater than 0 and less than 180 degrees"};
+const NumberRule kTurnRule = {[](double degrees) { return degrees >= 180.0 && degrees <= 7200.0; },
+                              "must be 180 to 7200 degrees"};
 
-using Names = std::vector<std::string>;
+using Words = std::vector<std::string>;
 
 /// Reads a file for one craft.
 class PilotParser {
@@ -73,7 +73,7 @@ class PilotParser {
   }
   /// @param what is named by it lies beyond the limits of the actuator.
   void checkLimits(const ConfigReader& reader, const char* key, const Levels& levels) const;
-  void allow(const ConfigReader& reader, const Names& own) const;
+  void allow(const ConfigReader& reader, const Words& own) const;
   Side side(const ConfigReader& reader, const char* key) const {
     return static_cast<Side>(reader.choiceOr(0, key, sideNames()));
   }
@@ -98,14 +98,14 @@ class PilotParser {
   const Scenario& scenario_;
   const VehicleScenario* craft_ = nullptr;
   ActuatorArray<EngineParameters> parameters_;
-  Names names_;  // of its actuators, by id; empty: an engine that it lacks
+  Words names_;  // of its actuators, by id; empty: an engine that it lacks
   std::set<std::size_t> named_;
   bool has_helm_ = false;
   PilotFile file_;
 };
 
 void PilotParser::chooseVehicle() {
-  Names crafts;
+  Words crafts;
   for (const VehicleScenario& craft : scenario_.vehicles) crafts.push_back(craft.name);
   if (!reader_.has("vehicle") && crafts.size() > 1) {
     reader_.fail("vehicle", fmt::format("the key is missing; the scenario has several: {}",
@@ -138,7 +138,7 @@ void PilotParser::parsePeriod() {
 void PilotParser::parseHelm(const ConfigReader& helm) {
   helm.allowOnly({"hard_over_deg", "port", "starboard"});
   file_.plan.helm.hard_over_deg =
-      helm.numberOr(file_.plan.helm.hard_over_deg, "hard_over_deg", kAngle);
+      helm.numberOr(file_.plan.helm.hard_over_deg, "hard_over_deg", kHelmAngleRule);
   const Levels none(names_.size(), 0.0);
   file_.plan.helm.port = levels(helm, "port", none);
   file_.plan.helm.starboard = levels(helm, "starboard", none);
@@ -146,7 +146,7 @@ void PilotParser::parseHelm(const ConfigReader& helm) {
 }
 
 Levels PilotParser::levels(const ConfigReader& map, const Levels& base) {
-  Names known;
+  Words known;
   std::copy_if(names_.begin(), names_.end(), std::back_inserter(known),
                [](const std::string& name) { return !name.empty(); });
   map.allowOnly(known);
@@ -172,14 +172,14 @@ void PilotParser::checkLimits(const ConfigReader& reader, const char* key,
   }
 }
 
-void PilotParser::allow(const ConfigReader& reader, const Names& own) const {
-  Names keys = {"name", "kind", "throttle", "approach"};
+void PilotParser::allow(const ConfigReader& reader, const Words& own) const {
+  Words keys = {"name", "kind", "throttle", "approach"};
   keys.insert(keys.end(), own.begin(), own.end());
   reader.allowOnly(keys);
 }
 
 void PilotParser::parseLongest(const ConfigReader& reader, Manoeuvre& manoeuvre) const {
-  manoeuvre.longest = reader.numberOr(300.0, "longest", kTime);
+  manoeuvre.longest = reader.numberOr(300.0, "longest", kTimeRule);
   if (manoeuvre.longest / file_.plan.period > kMostDecisions) {
     reader.fail("longest", "must be at most 1,000,000 times `period`");
   }
@@ -199,9 +199,9 @@ void PilotParser::setLength(const ConfigReader& reader, const char* key, const T
 }
 
 double PilotParser::decisions(const ConfigReader& reader, const char* key) const {
-  const double time = reader.number(key, kTime);
+  const double time = reader.number(key, kTimeRule);
   const double count = time / file_.plan.period;
-  if (count < 0.5 || std::abs(count - std::round(count)) > kWholeTolerance * count) {
+  if (count < 0.5 || std::abs(count - std::round(count)) > kPeriodsTolerance * count) {
     reader.fail(key, fmt::format("must be a whole number of periods of {} s",
                                  numberText(file_.plan.period)));
   }
@@ -214,7 +214,7 @@ double PilotParser::helmAngle(const ConfigReader& reader, double fallback,
     reader.fail("kind", "needs `helm` of the file: what hard over to port and to starboard does");
   }
   const Helm& helm = file_.plan.helm;
-  const double angle = reader.numberOr(fallback, "helm_deg", kAngle);
+  const double angle = reader.numberOr(fallback, "helm_deg", kHelmAngleRule);
   const char* key = reader.has("helm_deg") ? "helm_deg" : "kind";
   if (angle > helm.hard_over_deg) {
     reader.fail(
@@ -254,7 +254,7 @@ void PilotParser::parseRamp(const ConfigReader& reader, Manoeuvre& manoeuvre) {
   ramp.to = levels(reader, "to", ramp.from);
   checkLimits(reader, "from", ramp.from);
   checkLimits(reader, "to", ramp.to);
-  ramp.duration = reader.number("duration", kTime);
+  ramp.duration = reader.number("duration", kTimeRule);
   setLength(reader, "duration", ramp, manoeuvre);
 }
 
@@ -301,7 +301,7 @@ void PilotParser::parseChirp(const ConfigReader& reader, Manoeuvre& manoeuvre) {
   };
   chirp.first_frequency = frequency("first_frequency");
   chirp.last_frequency = frequency("last_frequency");
-  chirp.duration = reader.number("duration", kTime);
+  chirp.duration = reader.number("duration", kTimeRule);
   chirp.is_logarithmic = reader.choiceOr(0, "sweep", {"linear", "logarithmic"}) == 1;
   setLength(reader, "duration", chirp, manoeuvre);
 }
@@ -310,7 +310,7 @@ void PilotParser::parseZigZag(const ConfigReader& reader, Manoeuvre& manoeuvre) 
   allow(reader, {"helm_deg", "heading_deg", "executes", "first", "longest"});
   ZigZag task;
   task.helm_deg = helmAngle(reader, task.helm_deg, manoeuvre);
-  task.heading_deg = reader.numberOr(task.helm_deg, "heading_deg", kHeadingAngle);
+  task.heading_deg = reader.numberOr(task.helm_deg, "heading_deg", kHeadingRule);
   const auto executes = reader.wholeNumberOr(task.executes, "executes");
   if (executes < 2 || executes > 100) reader.fail("executes", "must be 2 to 100");
   task.executes = static_cast<int>(executes);
@@ -323,7 +323,7 @@ void PilotParser::parseTurningCircle(const ConfigReader& reader, Manoeuvre& mano
   allow(reader, {"helm_deg", "turn_deg", "side", "longest"});
   TurningCircle task;
   task.helm_deg = helmAngle(reader, file_.plan.helm.hard_over_deg, manoeuvre);
-  task.turn_deg = reader.numberOr(task.turn_deg, "turn_deg", kTurn);
+  task.turn_deg = reader.numberOr(task.turn_deg, "turn_deg", kTurnRule);
   task.side = side(reader, "side");
   parseLongest(reader, manoeuvre);
   manoeuvre.task = task;
@@ -362,7 +362,7 @@ void PilotParser::parseManoeuvre(const ConfigReader& reader) {
   manoeuvre.throttle = file_.idle;
   if (reader.has("throttle")) manoeuvre.throttle = levels(reader, "throttle", file_.idle);
   checkLimits(reader, "throttle", manoeuvre.throttle);
-  manoeuvre.approach = reader.numberOr(0.0, "approach", kApproachTime);
+  manoeuvre.approach = reader.numberOr(0.0, "approach", kApproachRule);
   (this->*kParse[kind])(reader, manoeuvre);
   file_.plan.manoeuvres.push_back(std::move(manoeuvre));
 }

@@ -22,6 +22,8 @@ void readCommandsCsv(const std::string& input);
 void readStatesCsv(const std::string& input);
 /// A snapshot without its scenario, which is added, and with whatever hash, which is set right.
 void readSnapshot(const std::string& input);
+/// A file of manoeuvres, which is then flown for a while.
+void flyPilot(const std::string& input);
 void readBag(const std::string& input);
 /// A bag as `report` makes a page of it.
 void reportBag(const std::string& input);
@@ -38,6 +40,7 @@ inline const std::vector<Target>& targets() {
                                           {"commands_csv", readCommandsCsv},
                                           {"states_csv", readStatesCsv},
                                           {"snapshot", readSnapshot},
+                                          {"pilot", flyPilot},
                                           {"bag", readBag},
                                           {"report_bag", reportBag},
                                           {"layout", readLayout},

@@ -12,8 +12,8 @@ namespace hovercraft {
 
 /// Direction of a heading in W, from x to the bow, positive to port.
 struct Heading {
-  double cos = 1.0;
-  double sin = 0.0;
+  double along = 1.0;   // x
+  double across = 0.0;  // y
 };
 inline Heading headingOf(double angle) {
   return {exactCos(angle), exactSin(angle)};
