@@ -18,7 +18,7 @@ import re
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
 DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md',
-             'doc/craft.md', 'doc/manoeuvres.md', 'doc/api.md')
+             'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -61,7 +61,7 @@ RULES = (
     Rule(r'roscore .*', until='/rosout_agg', stays=True),
     Rule(r'markers_node .*', beside=(ROSCORE,), until='/hovercraft_markers/markers', stays=True),
     Rule(r'rviz .*', skip='it opens a window'),
-    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --(hold|pilot)|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
+    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --(hold|pilot|truth-odom truth/odom)|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
          skip=NAMED),
     Rule(r'roslaunch hovercraft_sim sim\.launch set:=.*', beside=(), until='/hovercraft_sim/scenario'),
     # CONTRIBUTING.md
@@ -93,6 +93,8 @@ RULES = (
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
     Rule(r'scripts/check_(example|page) build_release', skip=SCRIPTS_TEST),
+    # doc/rviz.md
+    Rule(r'roslaunch hovercraft_sim sim\.launch rviz:=true', skip='it opens a window'),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
     Rule(r'node web/.*|cd web && .*', skip="it needs npm's network; scripts/check_page does it"),
