@@ -164,7 +164,7 @@ TEST(VelocityControl, SwayIsControlledWhereTheActuatorsCan) {
 }
 
 TEST(VelocityControl, ShippedParametersAreThoseOfTheScenarios) {
-  for (const std::string& name : kShipped) {
+  for (const std::string name : {"hovercraft", "mvwt", "lift_fan"}) {
     EXPECT_EQ(testing::contentOf("config/velocity_controller/" + name + ".yaml"),
               velocityYaml(velocityParametersOf(shippedCraft(name).vehicles[0]),
                            "config/" + name + ".yaml"))
