@@ -83,7 +83,14 @@ class Scene {
     Recording recording = recorded.finish();
     states_ = recording.messages<hovercraft_sim::State>("/rc5/state");
     cushions_ = recording.messages<hovercraft_sim::Cushion>("/rc5/cushion");
-    EXPECT_EQ(states_.size(), cushions_.size());
+    // The simulation runs while the recorder stops: perhaps between the two of the last tick.
+    const std::size_t pairs = std::min(states_.size(), cushions_.size());
+    EXPECT_LE(std::max(states_.size(), cushions_.size()), pairs + 1);
+    states_.resize(pairs);
+    cushions_.resize(pairs);
+    for (std::size_t i = 0; i < pairs; ++i) {
+      EXPECT_EQ(states_[i].header.stamp, cushions_[i].header.stamp);
+    }
     compareCushions(Recording(request.output));
     ReplayRequest again;
     again.bag = recorded.bagPath();

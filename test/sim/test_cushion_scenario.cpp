@@ -65,18 +65,8 @@ constexpr const char* kGround =
     "ground:\n  plane: {height: 0.25, normal: [0, 0, 1]}\n  pads: {sink: 0.002, damping: 8, "
     "friction: 0.4, slip_speed: 0.03}\n";
 
-/// What a scenario that is in order says, line by line.
-std::vector<std::string> notesOn(const std::string& text) {
-  std::vector<std::string> notes;
-  ScenarioSource source;
-  source.name = "test.yaml";
-  source.note = [&](const std::string& note) { notes.push_back(note); };
-  parseScenario(text, source);
-  return notes;
-}
-
 void expectNote(const std::string& text, const std::string& part) {
-  const std::vector<std::string> notes = notesOn(text);
+  const std::vector<std::string> notes = testing::notesOn(text);
   const bool is_there = std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
     return note.find(part) != std::string::npos;
   });
@@ -180,7 +170,7 @@ TEST(CushionScenario, AirThatSwingsByItselfIsRefusedWithItsMargin) {
 }
 
 TEST(CushionScenario, WhatFliesBadlyIsSaidWithItsNumber) {
-  EXPECT_EQ(notesOn(cushionText()).size(), 0U);
+  EXPECT_EQ(testing::notesOn(cushionText()).size(), 0U);
   expectNote(with(cushionText(), "speed: 1}", "speed: 0.5}"),
              "carry at most 25.25 N of the weight of 50.5 N");
   expectNote(with(cushionText(), "stiffness: 2500", "stiffness: 5000"),
@@ -239,7 +229,7 @@ TEST(CushionScenario, FanMayBeTurnedByAnActuator) {
   const std::string ducted =
       with(liftFanText(), "lift_fan: blower}", "lift_fan: blower, intake: [1, 2, 3]}");
   EXPECT_EQ(parsed(ducted).vehicles[0].cushion->fans[0].p_HI, Vector3(1.0, 2.0, 3.0));
-  EXPECT_EQ(notesOn(liftFanText()).size(), 0U);
+  EXPECT_EQ(testing::notesOn(liftFanText()).size(), 0U);
 }
 
 TEST(CushionScenario, ActuatorOfAFanIsALiftFanThatTurnsItAlone) {

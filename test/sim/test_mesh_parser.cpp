@@ -31,14 +31,6 @@ std::string withVisual(const std::string& visual) {
   return with(validScenario(), kMassByNumbers, kMassByNumbers + ("    visual: " + visual + "\n"));
 }
 
-std::vector<std::string> notesOn(const std::string& text) {
-  std::vector<std::string> notes;
-  ScenarioSource source{"test.yaml", "test/data", {}};
-  source.note = [&notes](const std::string& note) { notes.push_back(note); };
-  parseScenario(treeOf(text, "test.yaml"), source);
-  return notes;
-}
-
 // A box of a x b x c: I_xx = m (b² + c²)/12.
 TEST(MeshParser, TheScaleIsOneNumberOrThree) {
   const MassProperties one = parsed(withMeshKeys(", scale: 0.5")).vehicles[0].mass_properties;
