@@ -18,10 +18,12 @@ using visualization_msgs::Marker;
 constexpr double kArrowOfFullThrust = 0.8;  // m, as thrustMarkers()
 constexpr double kLongestArrow = 4.0;       // m
 constexpr double kShortestArrow = 0.005;    // m: less is not drawn
-constexpr double kWindArrow = 0.2;          // m for 1 m/s
-constexpr double kWindHeight = 0.6;         // m above the centre of mass
-constexpr double kImpulseArrow = 0.3;       // m for 1 N s
-constexpr double kWordHeight = 0.08;        // m
+constexpr double kForceHeight = 0.3;   // m above the centre of mass: hulls hide what is in them
+constexpr double kBeside = 0.07;       // m, of the resultant above the drag, often the same
+constexpr double kWindArrow = 0.2;     // m for 1 m/s
+constexpr double kWindHeight = 0.6;    // m above the centre of mass
+constexpr double kImpulseArrow = 0.3;  // m for 1 N s
+constexpr double kWordHeight = 0.08;   // m
 
 Marker detail(const std::string& frame, const std::string& space, int id, int type,
               const std::array<float, 3>& color) {
@@ -102,12 +104,13 @@ std::vector<Marker> forceMarkers(const hovercraft::VehicleScenario& craft, const
                                  const CraftMotion& motion) {
   const std::string& frame = motion.state.header.frame_id;
   const Vector3 p_WB = fromMessage(motion.state.pose.position);
+  const Vector3 from = p_WB + Vector3(0.0, 0.0, kForceHeight);
   const double metres = kArrowOfFullThrust / fullForce(craft);
   Marker drag = detail(frame, craft.name + "/drag", 0, Marker::ARROW, kDragColor);
-  point(drag, p_WB, bounded(metres * dragOf(craft, wind, motion.state), 0.0, kLongestArrow));
+  point(drag, from, bounded(metres * dragOf(craft, wind, motion.state), 0.0, kLongestArrow));
   Marker resultant = detail(frame, craft.name + "/resultant", 0, Marker::ARROW, kResultantColor);
   const Vector3 force = resultantOf(motion).value_or(Vector3::Zero());
-  point(resultant, p_WB, bounded(metres * force, 0.0, kLongestArrow));
+  point(resultant, from + Vector3(0.0, 0.0, kBeside), bounded(metres * force, 0.0, kLongestArrow));
   Marker air = detail(frame, craft.name + "/wind", 0, Marker::ARROW, kWindColor);
   const Vector3 above = p_WB + Vector3(0.0, 0.0, kWindHeight);
   point(air, above, bounded(kWindArrow * wind, 0.0, kLongestArrow));
@@ -117,7 +120,7 @@ std::vector<Marker> forceMarkers(const hovercraft::VehicleScenario& craft, const
 }
 
 std::vector<Marker> contactMarkers(const hovercraft_sim::Contact& contact, int id) {
-  const Vector3 at = fromMessage(contact.point);
+  const Vector3 at = fromMessage(contact.point) + Vector3(0.0, 0.0, kForceHeight);
   const Vector3 impulse = fromMessage(contact.impulse);
   Marker arrow = detail(contact.header.frame_id, "contacts", 2 * id, Marker::ARROW, kContactColor);
   arrow.lifetime = ros::Duration(kContactShown);

@@ -299,7 +299,7 @@ TEST(Pilot, WhatIsNotReachedIsGivenUpAndSaysSo) {
 
 TEST(Pilot, ThatGivesUpFliesNothingMore) {
   PilotPlan plan = planOf(manoeuvreOf(TurningCircle{35.0, 540.0, Side::kStarboard}));
-  plan.manoeuvres.push_back(plan.manoeuvres.front());
+  plan.manoeuvres.resize(3, plan.manoeuvres.front());
   Pilot pilot(plan);
   Nomoto craft;
   craft.step(pilot.decide(craft.motion));
@@ -313,8 +313,8 @@ TEST(Pilot, ThatGivesUpFliesNothingMore) {
 TEST(MotionWatch, CountsWholeTurns) {
   MotionWatch watch;
   const Vector3 none = Vector3::Zero();
-  for (int i = 0; i <= 30; ++i) {
-    const double angle = -0.5 * i;
+  for (int i = 0; i <= 90; ++i) {
+    const double angle = i <= 30 ? -0.5 * i : 0.5 * (i - 60);  // there, back and beyond
     const Quaternion q = {std::cos(0.5 * angle), {0.0, 0.0, std::sin(0.5 * angle)}};
     EXPECT_NEAR(watch.see(0.1 * i, none, q, none, none).heading, angle, 1e-12);
   }

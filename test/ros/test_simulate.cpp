@@ -241,7 +241,8 @@ TEST(ProgressBar, FillsAsItGoesAndIsWiped) {
 TEST_F(Simulate, EveryErrorOfARequestNamesWhatIsWrong) {
   const std::string yaml = oneCraftYaml();
   SimulateRequest request = requestOf(yaml);
-  EXPECT_EQ(errorOf(request), "--duration is missing: without --commands it must be given");
+  EXPECT_EQ(errorOf(request),
+            "--duration is missing: without --commands and --pilot it must be given");
   const std::vector<std::pair<std::string, std::string>> durations = {
       {"x", "--duration = x: must be a number of seconds"},
       {"nan", "--duration = nan: must be a number of seconds"},

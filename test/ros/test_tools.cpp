@@ -307,7 +307,7 @@ TEST_F(Tools, ErrorsAreOneLineAndStatusOne) {
       {"simulate -o {}o.csv", "simulate: the option '--scenario' is required but missing\n"},
       {"simulate {}s.yaml", "simulate: the option '--output' is required but missing\n"},
       {"simulate {}s.yaml -o {}o.csv",
-       "simulate: --duration is missing: without --commands it must be given\n"},
+       "simulate: --duration is missing: without --commands and --pilot it must be given\n"},
       {"simulate {}s.yaml -o {}o.csv -d 1 --every x",
        "simulate: the argument ('x') for option '--every' is invalid\n"},
       {"simulate {}s.yaml -o {}o.csv -d 1 --speed 2", "simulate: unrecognised option '--speed'\n"},

@@ -31,15 +31,15 @@ HOVERCRAFT_PUBLIC hovercraft::Vector3 dragOf(const hovercraft::VehicleScenario& 
 /// the time. Nothing where there is no state before.
 HOVERCRAFT_PUBLIC std::optional<hovercraft::Vector3> resultantOf(const CraftMotion& motion);
 
-/// Arrows at the centre of mass: `NAME/drag`, `NAME/resultant`, as long as those of thrusts: 0.8 m
-/// for the greatest thrust of an engine (of a craft without, for its mass times 1 m/s²), at most 4
-/// m. `NAME/wind`: 0.2 m for 1 m/s, with its speed as text. What is 0 is deleted.
+/// Arrows 0.3 m above the centre of mass: `NAME/drag`, `NAME/resultant`, as long as those of
+/// thrusts: 0.8 m for the greatest thrust of an engine (of a craft without, for its mass times 1
+/// m/s²), at most 4 m. `NAME/wind`: 0.2 m for 1 m/s, with its speed as text. What is 0 is deleted.
 HOVERCRAFT_PUBLIC std::vector<visualization_msgs::Marker> forceMarkers(
     const hovercraft::VehicleScenario& craft, const hovercraft::Vector3& wind,
     const CraftMotion& motion);
 
-/// `contacts`: at each contact an arrow along the impulse on b, 0.3 m for 1 N s (0.1 to 2 m), with
-/// its size as text. They go by themselves after kContactShown.
+/// `contacts`: 0.3 m above each contact an arrow along the impulse on b, 0.3 m for 1 N s (0.1 to 2
+/// m), with its size as text. They go by themselves after kContactShown.
 /// @param id of the contact; every one has markers of its own.
 HOVERCRAFT_PUBLIC std::vector<visualization_msgs::Marker> contactMarkers(
     const hovercraft_sim::Contact& contact, int id);
