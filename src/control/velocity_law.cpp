@@ -180,7 +180,7 @@ double VelocityLaw::balance(int axis, double sign, const Vector3& held) const {
   constexpr int kHalvings = 60;
   if (plant_.linear_drag[axis] + plant_.quadratic_drag[axis] == 0.0) return 0.0;
   const Thrusts full = greatestForces();
-  const auto isKept = [&](double rate) {
+  const auto is_kept = [&](double rate) {
     Vector3 motion = Vector3::Zero();
     motion[axis] = sign * rate;
     const AllocationProblem problem = allocationAt({motion.x(), motion.y(), motion.z()}, full);
@@ -189,10 +189,10 @@ double VelocityLaw::balance(int axis, double sign, const Vector3& held) const {
   };
   double low = 0.0;
   double high = 1.0;
-  while (isKept(high) && high < kFastest) high *= 2.0;
+  while (is_kept(high) && high < kFastest) high *= 2.0;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
-    (isKept(middle) ? low : high) = middle;
+    (is_kept(middle) ? low : high) = middle;
   }
   return low;
 }

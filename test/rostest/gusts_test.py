@@ -144,10 +144,13 @@ class GustsTest(unittest.TestCase):
             self.assertLess(heard['wind'][500].apparent.x, -0.5)
             status, words = run('replay', path)
             self.assertEqual(status, 0, words)
-            live = {wind.header.stamp.to_nsec(): numbers(wind.true_wind) for wind in heard['wind']}
-            for stamp, wind in self.of('wind').items():  # the same gusts, whoever steps
-                if stamp <= STEPS * 10**6:
-                    self.assertEqual(live[stamp], numbers(wind.true_wind))
+            live, compared = self.of('wind'), 0
+            for wind in heard['wind']:  # the same gusts, whoever steps
+                stamp = wind.header.stamp.to_nsec()
+                if stamp in live and stamp <= STEPS * 10**6 - 10**7:
+                    self.assertEqual(numbers(live[stamp].true_wind), numbers(wind.true_wind))
+                    compared += 1
+            self.assertGreater(compared, 150)
 
 
 if __name__ == '__main__':

@@ -17,6 +17,7 @@ namespace {
 using testing::complaintAbout;
 using testing::kMassByNumbers;
 using testing::messageOf;
+using testing::notesOn;
 using testing::parsed;
 using testing::validScenario;
 using testing::with;

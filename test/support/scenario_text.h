@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "hovercraft_sim/sim/scenario_parser.h"
 
