@@ -138,7 +138,7 @@ TEST(RoofGround, TopOfARandomHullIsWhereAVerticalRayLeavesIt) {
 TEST(RoofGround, PointsAskedTogetherSeeWhatEachAloneSees) {
   RoofGround ground(std::make_shared<PlaneGround>(GroundPlane{Vector3::UnitZ(), -0.3}));
   ground.add(boxPolyhedron(Vector3(2.0, 1.0, 1.0)),
-             {rotationFromRpy({0.05, -0.1, 0.6}), Vector3(0.1, 0.2, -0.4)});
+             {rotationFromRpy({0.0, 0.0, 0.6}), Vector3(0.1, 0.2, -0.4)});
   std::mt19937 random(20261127);
   std::uniform_real_distribution<double> place(-1.2, 1.2);
   std::uniform_real_distribution<double> offset(-0.2, 0.2);
@@ -155,7 +155,7 @@ TEST(RoofGround, PointsAskedTogetherSeeWhatEachAloneSees) {
       const GroundSample alone = sampleOf(ground, points[i].x, points[i].y, points[i].z, 0.5);
       ASSERT_EQ(together[i].gap, alone.gap) << n;
       ASSERT_EQ(together[i].nx, alone.nx) << n;
-      if (alone.nz < 1.0) ++held;
+      if (alone.gap < 0.5) ++held;
     }
     if (held > 0 && held < 8) ++mixed;
   }
