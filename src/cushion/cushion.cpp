@@ -294,7 +294,7 @@ Wrench Cushion::wrenchOver(const BodyMotion& motion, const FanSpeeds& speeds,
                            const Probe& probe) const {
   Airs airs;
   blow(motion, speeds, probe, airs);
-  const Wrench air = pressureWrench(airs) + momentumDrag(motion, airs);
+  Wrench air = pressureWrench(airs) + momentumDrag(motion, airs);
   if (!(parameters_.skirt.stiffness > 0.0)) return air;
   return air + skirtWrench(motion, probe, airs);
 }
@@ -325,7 +325,7 @@ Wrench Cushion::planarWrenchInBody(const BodyMotion& motion, const FanSpeeds& sp
   planarAirs(speeds, load, airs);
   const double left = std::max(0.0, load - pressureWrench(airs).force.z());
   const double per_metre = left / total_length_;
-  const auto wrenchOf = [&](int index) -> Wrench {
+  const auto wrench_of = [&](int index) -> Wrench {
     const auto k = static_cast<std::size_t>(index);
     const Vector3 p_BK = hem_.at(k);
     Vector3 velocity = motion.velocityAt(p_BK);
@@ -337,7 +337,7 @@ Wrench Cushion::planarWrenchInBody(const BodyMotion& motion, const FanSpeeds& sp
   Wrench sum = momentumDrag(motion, airs);
   if (!(left > 0.0)) return sum;
   for (const MirrorPair& pair : point_pairs_) {
-    sum = sum + (pair[1] < 0 ? wrenchOf(pair[0]) : wrenchOf(pair[0]) + wrenchOf(pair[1]));
+    sum = sum + (pair[1] < 0 ? wrench_of(pair[0]) : wrench_of(pair[0]) + wrench_of(pair[1]));
   }
   return sum;
 }

@@ -25,6 +25,7 @@ Pads::Pads(const std::vector<Vector3>& vertices_B, double weight, const PadParam
   const FloatingPointEnvironment environment;
   stiffness_ = weight / (kCarriers * parameters.sink);
   std::vector<PlacedElement> placed;
+  placed.reserve(vertices_B.size());
   for (const Vector3& p : vertices_B) placed.push_back({p, 0.0});
   const std::vector<MirrorPair> pairs = mirrorPairs(placed);
   for (const bool alone : {false, true}) {
@@ -36,10 +37,15 @@ Pads::Pads(const std::vector<Vector3>& vertices_B, double weight, const PadParam
     }
     if (!alone) paired_ = vertices_B_.size();
   }
-  if (vertices_B.empty()) return;
-  Vector3 low = vertices_B.front();
+  surround();
+}
+
+/// The box around the vertices.
+void Pads::surround() {
+  if (vertices_B_.empty()) return;
+  Vector3 low = vertices_B_.front();
   Vector3 high = low;
-  for (const Vector3& p : vertices_B) {
+  for (const Vector3& p : vertices_B_) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }

@@ -12,28 +12,29 @@ namespace {
 const NumberRule kDischargeRule = {[](double x) { return x > 0.0 && x <= 1.0; },
                                    "must be greater than 0 and at most 1"};
 
-/// What turns a fan: one speed, speeds over time, or an actuator of the craft. @param actuators of
-/// it.
-void parseSpeed(const ConfigReader& reader, const std::vector<ActuatorScenario>& actuators,
+/// The actuator that turns a fan. @param actuators of the craft.
+void parseDrive(const ConfigReader& reader, const std::vector<ActuatorScenario>& actuators,
                 CushionFan& fan) {
+  for (const char* key : {"speed", "speeds"}) {
+    if (reader.has(key)) reader.fail(key, "must not stand beside lift_fan, which turns the fan");
+  }
+  fan.lift_fan = reader.text("lift_fan");
+  const auto turns_it = [&](const ActuatorScenario& actuator) {
+    return actuator.name == fan.lift_fan && actuator.kind == ActuatorKind::kLiftFan;
+  };
+  const auto actuator = std::find_if(actuators.begin(), actuators.end(), turns_it);
+  if (actuator == actuators.end()) {
+    reader.fail("lift_fan", "must name an actuator of the craft, of kind: lift_fan");
+  }
+  if (!reader.has("intake")) fan.p_HI = actuator->motion.p_HE;
+}
+
+/// The speed of a fan that no actuator turns: one, or one over time.
+void parseSpeed(const ConfigReader& reader, CushionFan& fan) {
   if (reader.has("speed") && reader.has("speeds")) {
     reader.fail("speeds", "must not stand beside speed");
   }
   fan.speed = reader.numberOr(1.0, "speed", kNotNegative);
-  if (reader.has("lift_fan")) {
-    for (const char* key : {"speed", "speeds"}) {
-      if (reader.has(key)) reader.fail(key, "must not stand beside lift_fan, which turns the fan");
-    }
-    fan.lift_fan = reader.text("lift_fan");
-    const auto turns_it = [&](const ActuatorScenario& actuator) {
-      return actuator.name == fan.lift_fan && actuator.kind == ActuatorKind::kLiftFan;
-    };
-    const auto actuator = std::find_if(actuators.begin(), actuators.end(), turns_it);
-    if (actuator == actuators.end()) {
-      reader.fail("lift_fan", "must name an actuator of the craft, of kind: lift_fan");
-    }
-    if (!reader.has("intake")) fan.p_HI = actuator->motion.p_HE;
-  }
   if (!reader.has("speeds")) return;
   for (const ConfigReader& point : reader.list("speeds")) {
     point.allowOnly({"time", "speed"});
@@ -62,7 +63,11 @@ CushionFan parseFan(const std::string& name, const ConfigReader& reader,
                 "flow");
   }
   fan.p_HI = reader.vectorOr(Vector3::Zero(), "intake", kCoordinate);
-  parseSpeed(reader, actuators, fan);
+  if (reader.has("lift_fan")) {
+    parseDrive(reader, actuators, fan);
+  } else {
+    parseSpeed(reader, fan);
+  }
   return fan;
 }
 

@@ -13,19 +13,23 @@ namespace {
 /// 1 nm of height, and its height over (x, y) would be as steep as a billion to one.
 constexpr double kUpright = 1e-9;
 
+/// Share (-) of the numbers of a wall's test that its rounding, some 4e-16 of them, never reaches.
+constexpr double kWithinShare = 1e-12;
+
 constexpr double kFar = std::numeric_limits<double>::max();
 
 }  // namespace
 
 void RoofGround::add(const ConvexPolyhedron& body, const Pose& X_WO) {
   const FloatingPointEnvironment environment;
-  Roof roof = {kFar, kFar, -kFar, -kFar, {}, {}, {}};
+  Roof roof = {{kFar, kFar, -kFar, -kFar}, {}, {}, {}};
+  Rectangle& around = roof.around;
   for (int i = 0; i < body.vertexCount(); ++i) {
     const Vector3 p = transform(X_WO, body.vertex(i));
-    roof.low_x = std::min(roof.low_x, p.x());
-    roof.low_y = std::min(roof.low_y, p.y());
-    roof.high_x = std::max(roof.high_x, p.x());
-    roof.high_y = std::max(roof.high_y, p.y());
+    around.low_x = std::min(around.low_x, p.x());
+    around.low_y = std::min(around.low_y, p.y());
+    around.high_x = std::max(around.high_x, p.x());
+    around.high_y = std::max(around.high_y, p.y());
   }
   for (int i = 0; i < body.faceCount(); ++i) {
     const PolyhedronData::Face& face = body.face(i);
@@ -46,8 +50,9 @@ void RoofGround::add(const ConvexPolyhedron& body, const Pose& X_WO) {
 }
 
 bool RoofGround::holds(const Roof& roof, const GroundPoint& point) {
-  if (point.x < roof.low_x || point.x > roof.high_x || point.y < roof.low_y ||
-      point.y > roof.high_y) {
+  const Rectangle& around = roof.around;
+  if (point.x < around.low_x || point.x > around.high_x || point.y < around.low_y ||
+      point.y > around.high_y) {
     return false;
   }
   return std::all_of(roof.walls.begin(), roof.walls.end(), [&](const Wall& wall) {
@@ -55,11 +60,26 @@ bool RoofGround::holds(const Roof& roof, const GroundPoint& point) {
   });
 }
 
-/// The face of the roof above or below a point of (x, y); none where the roof does not reach, or
-/// hangs above `below`. @param height of it, m.
+/// Whether the roof holds every point of a rectangle, so that none needs to be asked by itself: so
+/// far within each wall that rounding decides nothing.
+bool RoofGround::holdsAll(const Roof& roof, const Rectangle& points) {
+  const Rectangle& around = roof.around;
+  if (points.low_x < around.low_x || points.high_x > around.high_x || points.low_y < around.low_y ||
+      points.high_y > around.high_y) {
+    return false;
+  }
+  return std::all_of(roof.walls.begin(), roof.walls.end(), [&](const Wall& wall) {
+    const double x = wall.nx * (wall.nx > 0.0 ? points.high_x : points.low_x);
+    const double y = wall.ny * (wall.ny > 0.0 ? points.high_y : points.low_y);
+    const double size = std::abs(x) + std::abs(y) + std::abs(wall.offset);
+    return x + y < wall.offset - kWithinShare * size;
+  });
+}
+
+/// The face of the roof above or below a point of (x, y) that it holds; none where it hangs above
+/// `below`. @param height of it, m.
 const RoofGround::Top* RoofGround::topUnder(const Roof& roof, const GroundPoint& point,
                                             double below, double& height) {
-  if (!holds(roof, point)) return nullptr;
   const Top* lowest = nullptr;
   height = kFar;
   for (const Top& top : roof.tops) {
@@ -73,10 +93,13 @@ const RoofGround::Top* RoofGround::topUnder(const Roof& roof, const GroundPoint&
   return height >= underside && underside < below ? lowest : nullptr;
 }
 
-/// Takes the roof where it is higher than what was found.
-void RoofGround::lift(const Roof& roof, const GroundQuery& query, GroundSample* samples) const {
+/// Takes the roof where it is higher than what was found. @param holds_all whether it holds all
+/// points of the query.
+void RoofGround::lift(const Roof& roof, const GroundQuery& query, bool holds_all,
+                      GroundSample* samples) {
   for (int i = 0; i < query.count; ++i) {
     const GroundPoint& point = query.points[i];
+    if (!holds_all && !holds(roof, point)) continue;
     double height = 0.0;
     const Top* top = topUnder(roof, point, query.below, height);
     if (top == nullptr) continue;
@@ -94,22 +117,21 @@ void RoofGround::sample(const GroundQuery& query, GroundSample* samples) const {
   } else {
     std::fill_n(samples, query.count, kOverNothing);
   }
-  double low_x = kFar;
-  double low_y = kFar;
-  double high_x = -kFar;
-  double high_y = -kFar;
+  Rectangle points = {kFar, kFar, -kFar, -kFar};
   for (int i = 0; i < query.count; ++i) {
     const GroundPoint& point = query.points[i];
-    low_x = std::min(low_x, point.x);
-    low_y = std::min(low_y, point.y);
-    high_x = std::max(high_x, point.x);
-    high_y = std::max(high_y, point.y);
+    points.low_x = std::min(points.low_x, point.x);
+    points.low_y = std::min(points.low_y, point.y);
+    points.high_x = std::max(points.high_x, point.x);
+    points.high_y = std::max(points.high_y, point.y);
   }
   for (const Roof& roof : roofs_) {
-    if (roof.high_x < low_x || roof.low_x > high_x || roof.high_y < low_y || roof.low_y > high_y) {
+    const Rectangle& around = roof.around;
+    if (around.high_x < points.low_x || around.low_x > points.high_x ||
+        around.high_y < points.low_y || around.low_y > points.high_y) {
       continue;
     }
-    lift(roof, query, samples);
+    lift(roof, query, holdsAll(roof, points), samples);
   }
 }
 

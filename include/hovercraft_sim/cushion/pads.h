@@ -36,6 +36,7 @@ class HOVERCRAFT_PUBLIC Pads {
  private:
   Wrench wrenchOf(const Vector3& p_B, const BodyMotion& motion, const GroundSample& sample) const;
 
+  void surround();
   bool isClearOf(const GroundPlane& plane, const BodyMotion& motion) const;
 
   std::vector<Vector3> vertices_B_;        // mirrored pairs first: one after the other

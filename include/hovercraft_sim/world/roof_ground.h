@@ -36,17 +36,23 @@ class HOVERCRAFT_PUBLIC RoofGround final : public Ground {
   struct Wall {
     double nx, ny, offset;
   };
+  /// A rectangle seen from above, m.
+  struct Rectangle {
+    double low_x, low_y, high_x, high_y;
+  };
   struct Roof {
-    double low_x, low_y, high_x, high_y;  // m, the box around it seen from above
+    Rectangle around;
     std::vector<Top> tops;
     std::vector<Slope> bottoms;
     std::vector<Wall> walls;
   };
 
   static bool holds(const Roof& roof, const GroundPoint& point);
+  static bool holdsAll(const Roof& roof, const Rectangle& points);
   static const Top* topUnder(const Roof& roof, const GroundPoint& point, double below,
                              double& height);
-  void lift(const Roof& roof, const GroundQuery& query, GroundSample* samples) const;
+  static void lift(const Roof& roof, const GroundQuery& query, bool holds_all,
+                   GroundSample* samples);
 
   std::shared_ptr<const Ground> base_;
   std::vector<Roof> roofs_;
