@@ -72,7 +72,8 @@ const Levels& Pilot::decide(const PlanarMotion& motion) {
     if (isApproaching(motion)) return levels_;
     track_.push_back(motion);
     const bool is_over = fly();
-    if (!is_over && sinceExecute() < manoeuvre().longest - kDecisionBorder * plan_.period) return levels_;
+    if (!is_over && sinceExecute() < manoeuvre().longest - kDecisionBorder * plan_.period)
+      return levels_;
     end(is_over ? "" : "it took longer than `longest`");
   }
   levels_.clear();
