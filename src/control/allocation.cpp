@@ -10,7 +10,7 @@ namespace hovercraft {
 namespace {
 
 constexpr double kSettledGradient = 1e-12;  // of the greatest term of a gradient
-constexpr int kMostRounds = 4096;           // each makes the sum smaller: 3^8 sets at most
+constexpr int kMostRounds = 4096;           // each makes the sum smaller: no set comes twice
 
 enum class Bound { kFree, kLow, kHigh };
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "hovercraft_sim/hovercraft/drag.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/report/run_parts.h"
 
@@ -51,14 +50,16 @@ class States {
   double episode(std::size_t i) const { return (*columns_[14])[i]; }
 
   Powers powers(std::size_t i, const hovercraft::EngineGeometry& geometry,
-                const hovercraft::Drag& drag, const Vector3& wind) const {
+                const hovercraft::VehicleScenario& craft, const Vector3& wind) const {
     const Quaternion q_BW = conjugate(Quaternion{(*columns_[3])[i], vector(0, i)});
     const Vector3 v_W = vector(4, i);
     const Vector3 v_B = rotate(q_BW, v_W);
     const Vector3 w_B = rotate(q_BW, vector(7, i));
     Powers powers;
     powers.engines = powerOf(geometry.wrenchInBody(vector(10, i)), v_B, w_B);
-    powers.drag = powerOf(drag.wrenchInBody(rotate(q_BW, v_W - wind), w_B), v_B, w_B);
+    const Vector3 u_B = rotate(q_BW, v_W - wind);
+    powers.drag = powerOf(craft.drag.wrenchInBody(u_B, w_B), v_B, w_B);
+    if (craft.polar) powers.drag += powerOf(craft.polar->wrenchInBody(u_B), v_B, w_B);
     return powers;
   }
 
@@ -71,21 +72,42 @@ class States {
   std::array<const std::vector<double>*, kCount> columns_{};
 };
 
+/// The wind at each state, in the world.
+class Winds {
+ public:
+  Winds(const BodyTopics& topics, const Vector3& mean) : mean_(mean) {
+    if (topics.wind == nullptr || topics.wind->stamps_ns != topics.state->stamps_ns) return;
+    for (const char* path : {"true_wind.x", "true_wind.y", "true_wind.z"}) {
+      if (const auto* column = topics.wind->column(path)) columns_.push_back(column);
+    }
+  }
+  Vector3 at(std::size_t i) const {
+    if (columns_.size() < 3) return mean_;
+    return {(*columns_[0])[i], (*columns_[1])[i], (*columns_[2])[i]};
+  }
+
+ private:
+  Vector3 mean_;
+  std::vector<const std::vector<double>*> columns_;
+};
+
 }  // namespace
 
-std::optional<EnergyLedger> ledgerOf(const TopicSamples& state,
+std::optional<EnergyLedger> ledgerOf(const BodyTopics& topics,
                                      const hovercraft::VehicleScenario& vehicle,
-                                     const Vector3& wind, std::int64_t zero_ns,
+                                     const Vector3& mean_wind, std::int64_t zero_ns,
                                      const std::vector<std::int64_t>& contacts_ns) {
+  const TopicSamples& state = *topics.state;
   const States states(state);
+  const Winds winds(topics, mean_wind);
   if (!states.areWhole() || state.size() < 2) return std::nullopt;
   const hovercraft::EngineGeometry geometry(vehicle.engines, vehicle.mass_properties.p_HB);
   EnergyLedger ledger;
   ledger.begin = states.energy(0);
   ledger.end = states.energy(state.size() - 1);
-  Powers before = states.powers(0, geometry, vehicle.drag, wind);
+  Powers before = states.powers(0, geometry, vehicle, winds.at(0));
   for (std::size_t i = 1; i < state.size(); ++i) {
-    const Powers now = states.powers(i, geometry, vehicle.drag, wind);
+    const Powers now = states.powers(i, geometry, vehicle, winds.at(i));
     const double gain = states.energy(i) - states.energy(i - 1);
     const std::int64_t begin_ns = state.stamps_ns[i - 1] - zero_ns;
     const std::int64_t end_ns = state.stamps_ns[i] - zero_ns;

@@ -86,6 +86,7 @@ BodyTopics topicsOf(const RecordedTopics& recorded, const std::string& space) {
   topics.pose = topicOf(recorded, space, kPoseTopic, "geometry_msgs/PoseStamped");
   topics.twist = topicOf(recorded, space, kTwistTopic, "geometry_msgs/TwistStamped");
   topics.engines = topicOf(recorded, space, kEnginesTopic, "hovercraft_sim/EngineStatus");
+  topics.wind = topicOf(recorded, space, kWindTopic, "hovercraft_sim/Wind");
   return topics;
 }
 

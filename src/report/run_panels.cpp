@@ -123,6 +123,7 @@ std::string unitOf(const std::string& field) {
       {"angular_acceleration", "rad/s²"},
       {"angular_velocity", "rad/s"},
       {"age", "s"},
+      {"apparent", "m/s"},
       {"applied", "N"},
       {"commanded", "N"},
       {"demanded", "N"},
@@ -137,6 +138,7 @@ std::string unitOf(const std::string& field) {
       {"lateness_p99", "s"},
       {"latitude", "deg"},
       {"linear", "m/s"},
+      {"mean", "m/s"},
       {"linear_acceleration", "m/s²"},
       {"longitude", "deg"},
       {"magnetic_field", "T"},
@@ -152,6 +154,7 @@ std::string unitOf(const std::string& field) {
       {"torque", "N m"},
       {"translation", "m"},
       {"velocity", "m/s"},
+      {"true_wind", "m/s"},
       {"wind", "m/s"},
   };
   const auto unit = units.find(field);

@@ -218,7 +218,7 @@ void RunMaker::describe(const hovercraft::VehicleScenario& described, const Body
   body.engines = enginesOf(described);
   if (topics.state == nullptr) return;
   body.ledger =
-      ledgerOf(*topics.state, described, run_.scenario->wind, run_.zero_ns, contactsOf(body.name));
+      ledgerOf(topics, described, run_.scenario->wind, run_.zero_ns, contactsOf(body.name));
 }
 
 void RunMaker::addBody(const BodyTopics& topics) {

@@ -37,12 +37,15 @@ boost::shared_ptr<ros::M_string> latchedHeader(const Message& message) {
 
 }  // namespace
 
-BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenario)
+BagWriter::BagWriter(const std::string& path, const hovercraft::Scenario& scenario,
+                     const std::string& truth_odom)
     : file_(path),
       bag_(new rosbag::Bag),
       step_ns_(scenario.step_ns),
       bodies_(bodyMessages(scenario, TfFrames())),
-      sensors_(sensorMessages(scenario, TfFrames())) {
+      sensors_(sensorMessages(scenario, TfFrames(),
+                              truth_odom == kOdomTopic ? kOdometryTopic : kOdomTopic)),
+      truth_odom_(truth_odom) {
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     vehicles_.emplace_back(scenario, vehicle);
   }
@@ -114,12 +117,13 @@ void BagWriter::state(const hovercraft::Simulation& simulation) {
     messages.fill(simulation, {stamp, episode_, events_});
     write(topic(messages, kPoseTopic), stamp, messages.pose());
     write(topic(messages, kTwistTopic), stamp, messages.twist());
-    write(topic(messages, kOdomTopic), stamp, messages.odom());
+    write(topic(messages, truth_odom_.c_str()), stamp, messages.odom());
     write(topic(messages, kEnginesTopic), stamp, messages.engines());
     if (messages.hasActuators()) {
       write(topic(messages, kActuatorsTopic), stamp, messages.actuators());
     }
     write(topic(messages, kStateTopic), stamp, messages.state());
+    write(topic(messages, kWindTopic), stamp, messages.wind());
     if (messages.hasCushion()) write(topic(messages, kCushionTopic), stamp, messages.cushion());
     if (messages.hasTransform()) transforms_.transforms.push_back(messages.transform());
   }

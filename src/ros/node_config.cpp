@@ -150,11 +150,7 @@ void readMap(const hovercraft::ConfigReader& reader, NodeConfig& config) {
 std::string readTruthOdom(const hovercraft::ConfigReader& reader, const std::string& fallback) {
   if (!reader.has("truth_odom")) return fallback;
   const std::string topic = reader.text("truth_odom");
-  std::string part;
-  for (std::istringstream parts(topic + "/"); std::getline(parts, part, '/');) {
-    if (hovercraft::isGraphName(part)) continue;
-    reader.fail("truth_odom", "must be a topic below the craft's namespace, such as truth/odom");
-  }
+  if (!isTopicOfCraft(topic)) reader.fail("truth_odom", kTruthOdomRuleText);
   return topic;
 }
 

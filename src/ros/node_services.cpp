@@ -10,6 +10,7 @@
 #include <hovercraft_sim/Reset.h>
 #include <hovercraft_sim/ScheduleCommands.h>
 #include <hovercraft_sim/SetState.h>
+#include <hovercraft_sim/SetWind.h>
 #include <hovercraft_sim/Snapshot.h>
 #include <hovercraft_sim/Step.h>
 
@@ -96,6 +97,11 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
         node_.apply(event);
         response.tick = static_cast<std::uint64_t>(tick);
         response.end_tick = event.end_tick;
+      }));
+  servers_.push_back(serve<hovercraft_sim::SetWind>(
+      node_, own, "set_wind", [this](const auto& request, auto& response) {
+        node_.apply(setWindEvent(request));
+        response.tick = static_cast<std::uint64_t>(node_.liveRun().simulation().tick());
       }));
   servers_.push_back(serve<hovercraft_sim::ScheduleCommands>(
       node_, own, "schedule", [this](const auto& request, auto& response) {

@@ -10,6 +10,7 @@
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/ros/bag_file.h"
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/run_events.h"
 #include "hovercraft_sim/sim/command_log.h"
 
 namespace hovercraft_ros {
@@ -100,6 +101,9 @@ boost::shared_ptr<const RunEvent> readRunEvent(const std::string& path,
       break;
     case RunEvent::APPLY_WRENCH:
       checkWrench(place, *message);
+      break;
+    case kSetWind:
+      place.require(isWind(*message), kWindRuleText);
       break;
     default:
       failAt(path, instance, fmt::format("kind = {}: is no event that is known", message->kind));

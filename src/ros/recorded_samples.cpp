@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/recorded_samples.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <type_traits>
 #include <utility>
@@ -43,11 +44,27 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+/// The ends of all topics on which sensors publish.
+std::vector<std::string> endsOf(const std::vector<SensorMessages>& craft) {
+  std::vector<std::string> ends;
+  for (const SensorMessages& messages : craft) {
+    const std::string space = "/" + messages.name() + "/";
+    for (const SensorMessage& message : messages.messages()) {
+      ends.push_back(space + message.topic);
+      if (!message.velocity_topic.empty()) ends.push_back(space + message.velocity_topic);
+      if (message.topic == kOdometryTopic) ends.push_back(space + kOdomTopic);
+    }
+  }
+  return ends;
+}
+
 /// Reads the messages of one topic of one sensor.
 class TopicReader {
  public:
-  TopicReader(const std::string& path, const rosbag::Bag& bag, std::vector<RecordedSample>& samples)
-      : path_(path), bag_(bag), samples_(samples) {}
+  /// @param ends of all sensors' topics: a topic is of the longest one that fits.
+  TopicReader(const std::string& path, const rosbag::Bag& bag, std::vector<std::string> ends,
+              std::vector<RecordedSample>& samples)
+      : path_(path), bag_(bag), ends_(std::move(ends)), samples_(samples) {}
 
   /// @param end of the topic's full name. @param frame_end of the frame that the messages have;
   /// empty: any.
@@ -55,7 +72,7 @@ class TopicReader {
   void read(const std::string& end, const RecordedSample& of, const std::string& frame_end = "") {
     rosbag::View view(bag_, rosbag::TypeQuery(ros::message_traits::DataType<Message>::value()));
     for (const rosbag::MessageInstance& instance : view) {
-      if (!endsWith(instance.getTopic(), end)) continue;
+      if (!isOf(instance.getTopic(), end)) continue;
       const auto message = messageAs<Message>(path_, instance);
       if (!endsWith(message->header.frame_id, frame_end)) continue;
       RecordedSample sample = of;
@@ -66,8 +83,17 @@ class TopicReader {
   }
 
  private:
+  /// A craft may have a sensor of its own name: then .../a/a/imu/data ends in /a/imu/data too.
+  bool isOf(const std::string& topic, const std::string& end) const {
+    return endsWith(topic, end) &&
+           std::none_of(ends_.begin(), ends_.end(), [&](const std::string& other) {
+             return other.size() > end.size() && endsWith(topic, other);
+           });
+  }
+
   const std::string& path_;
   const rosbag::Bag& bag_;
+  std::vector<std::string> ends_;
   std::vector<RecordedSample>& samples_;
 };
 
@@ -76,8 +102,8 @@ class TopicReader {
 std::vector<RecordedSample> readSamples(const std::string& path, const rosbag::Bag& bag,
                                         const hovercraft::Scenario& scenario) {
   std::vector<RecordedSample> samples;
-  TopicReader reader(path, bag, samples);
   const std::vector<SensorMessages> craft = sensorMessages(scenario, TfFrames());
+  TopicReader reader(path, bag, endsOf(craft), samples);
   for (std::size_t vehicle = 0; vehicle < craft.size(); ++vehicle) {
     const std::string space = "/" + craft[vehicle].name() + "/";
     const auto& messages = craft[vehicle].messages();

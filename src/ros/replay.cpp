@@ -321,6 +321,10 @@ ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scen
 }
 
 int replayBag(const ReplayRequest& request, std::string& verdict) {
+  if (!isTopicOfCraft(request.truth_odom)) {
+    throw std::invalid_argument(
+        fmt::format("--truth-odom = {}: {}", request.truth_odom, kTruthOdomRuleText));
+  }
   hovercraft::checkOutputs({{"--output", request.output}}, {request.bag});
   const Recording recording = readRecording(request.bag);
   const std::string source = request.bag + ": ~scenario";
@@ -332,7 +336,7 @@ int replayBag(const ReplayRequest& request, std::string& verdict) {
   std::unique_ptr<BagWriter> writer;
   ReplayObserver observer;
   if (!request.output.empty()) {
-    writer = std::make_unique<BagWriter>(request.output, scenario);
+    writer = std::make_unique<BagWriter>(request.output, scenario, request.truth_odom);
     observer.on_state = [&writer](const hovercraft::Simulation& state) { writer->state(state); };
     observer.on_contact = [&writer](const hovercraft::ContactEvent& contact) {
       writer->contact(contact);

@@ -33,6 +33,12 @@ void requirePlanar(const hovercraft::Quaternion& q, const Vector3& v_H, const Ve
           "twist.angular: the model is planar: x and y must be 0");
 }
 
+/// @throws std::invalid_argument if it is none.
+Vector3 windOf(const RunEvent& event) {
+  require(isWind(event), kWindRuleText);
+  return {event.values[0], event.values[1], event.values[2]};
+}
+
 }  // namespace
 
 std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string& name) {
@@ -43,6 +49,12 @@ std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string
   }
   throw std::invalid_argument(
       fmt::format("vehicle = {}: must be one of: {}", name, fmt::join(names, ", ")));
+}
+
+bool isWind(const RunEvent& event) {
+  const auto& wind = event.values;
+  return event.name == "wind" && wind.size() == 3 &&
+         std::isfinite(hovercraft::norm(Vector3(wind[0], wind[1], wind[2])));
 }
 
 RunEvent resetEvent(std::int64_t seed) {
@@ -111,6 +123,15 @@ RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
   return event;
 }
 
+RunEvent setWindEvent(const hovercraft_sim::SetWind::Request& request) {
+  RunEvent event;
+  event.kind = kSetWind;
+  event.name = "wind";
+  event.values = {request.wind.x, request.wind.y, request.wind.z};
+  windOf(event);
+  return event;
+}
+
 namespace {
 
 void setMotion(const RunEvent& event, hovercraft::Simulation& simulation) {
@@ -167,6 +188,9 @@ void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
                               static_cast<hovercraft::Tick>(event.end_tick)});
       return;
     }
+    case kSetWind:
+      simulation.setWind(windOf(event));
+      return;
     default:
       throw std::invalid_argument(fmt::format("kind = {}: is no event that is known", event.kind));
   }

@@ -78,6 +78,13 @@ void checkRequest(const SimulateRequest& request) {
   if (!request.commands.empty() && !request.pilots.empty()) {
     throw std::invalid_argument("--pilot: must not stand beside --commands");
   }
+  if (!isTopicOfCraft(request.truth_odom)) {
+    throw std::invalid_argument(
+        fmt::format("--truth-odom = {}: {}", request.truth_odom, kTruthOdomRuleText));
+  }
+  if (request.truth_odom != kOdomTopic && fs::path(request.output).extension() != ".bag") {
+    throw std::invalid_argument("--truth-odom: has a meaning with an --output that is a bag only");
+  }
   std::vector<std::string> inputs = {request.scenario, request.commands};
   inputs.insert(inputs.end(), request.pilots.begin(), request.pilots.end());
   hovercraft::checkOutputs({{"--output", request.output},
@@ -189,10 +196,10 @@ std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
                                                         hovercraft::InputKind::kFileOrStream);
 }
 
-std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
-                                                  const Scenario& scenario) {
+std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path, const Scenario& scenario,
+                                                  const std::string& truth_odom) {
   const std::string extension = fs::path(path).extension().string();
-  if (extension == ".bag") return std::make_unique<BagWriter>(path, scenario);
+  if (extension == ".bag") return std::make_unique<BagWriter>(path, scenario, truth_odom);
   if (extension != ".csv" && path != "-") {
     throw std::invalid_argument(
         fmt::format("--output = {}: must end in .csv or .bag, or be - for CSV on the standard "
@@ -215,7 +222,8 @@ std::vector<std::string> filesOf(const SimulateRequest& request) {
 /// The output and the CSV files beside it, each around those before.
 std::unique_ptr<hovercraft::StateSink> openOutputs(const SimulateRequest& request,
                                                    const Scenario& scenario) {
-  std::unique_ptr<hovercraft::StateSink> output = openOutput(request.output, scenario);
+  std::unique_ptr<hovercraft::StateSink> output =
+      openOutput(request.output, scenario, request.truth_odom);
   if (!request.contacts.empty()) {
     output = std::make_unique<hovercraft::ContactsCsvWriter>(request.contacts, std::move(output));
   }

@@ -46,6 +46,7 @@ VehicleInterface::VehicleInterface(const ros::NodeHandle& handle, const LiveRun&
   odom_ = advertise(own, owner_.truth_odom.c_str(), &VehicleMessages::odom, latched);
   engines_ = advertise(own, kEnginesTopic, &VehicleMessages::engines, latched);
   state_ = advertise(own, kStateTopic, &VehicleMessages::state, latched);
+  wind_ = advertise(own, kWindTopic, &VehicleMessages::wind, latched);
   if (messages_.hasCushion()) {
     cushion_ = advertise(own, kCushionTopic, &VehicleMessages::cushion, latched);
   }
@@ -149,8 +150,9 @@ void VehicleInterface::noteSaturation(const hovercraft::Command& command,
 }
 
 std::vector<std::string> VehicleInterface::topics() const {
-  std::vector<std::string> names = {pose_.topic(),    twist_.topic(), odom_.topic(),
-                                    engines_.topic(), state_.topic(), commands_.getTopic()};
+  std::vector<std::string> names = {pose_.topic(),       twist_.topic(), odom_.topic(),
+                                    engines_.topic(),    state_.topic(), wind_.topic(),
+                                    commands_.getTopic()};
   if (messages_.hasActuators()) names.push_back(actuators_.topic());
   if (messages_.hasCushion()) names.push_back(cushion_.topic());
   return names;
@@ -163,6 +165,7 @@ void VehicleInterface::publish() {
   engines_.publish(messages_.engines());
   if (messages_.hasActuators()) actuators_.publish(messages_.actuators());
   state_.publish(messages_.state());
+  wind_.publish(messages_.wind());
   if (messages_.hasCushion()) cushion_.publish(messages_.cushion());
 }
 

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
+#include <sstream>
 #include <utility>
 
 #include "hovercraft_sim/ros/conversions.h"
@@ -8,6 +9,14 @@
 namespace hovercraft_ros {
 
 using hovercraft::kEngineNames;
+
+bool isTopicOfCraft(const std::string& topic) {
+  std::string part;
+  for (std::istringstream parts(topic + "/"); std::getline(parts, part, '/');) {
+    if (!hovercraft::isGraphName(part)) return false;
+  }
+  return true;
+}
 
 ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns) {
   ros::Time stamp;
@@ -28,6 +37,7 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
   engines_.header.frame_id = base_frame;
   cushion_.header.frame_id = base_frame;
   actuators_.header.frame_id = base_frame;
+  wind_.header.frame_id = base_frame;
   for (const hovercraft::ActuatorScenario& actuator : description_.actuators) {
     hovercraft_sim::ActuatorStatus status;
     status.name = actuator.name;
@@ -43,7 +53,7 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
 void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
   for (std_msgs::Header* header :
        {&pose_.header, &twist_.header, &odom_.header, &transform_.header, &engines_.header,
-        &actuators_.header, &state_.header, &cushion_.header}) {
+        &actuators_.header, &state_.header, &cushion_.header, &wind_.header}) {
     header->stamp = place.stamp;
   }
   const hovercraft::Motion motion = simulation.motion(vehicle_);
@@ -77,7 +87,15 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   state_.events = place.events;
   state_.hash = simulation.hash(vehicle_);
   state_.sensor_hash = simulation.sensorHash(vehicle_);
+  fillWind(simulation, hull);
   if (hasCushion()) fillCushion(simulation);
+}
+
+void VehicleMessages::fillWind(const hovercraft::Simulation& simulation, const HullMotion& hull) {
+  const hovercraft::Vector3 wind_W = simulation.windAt(vehicle_);
+  wind_.mean = toVector3Message(simulation.state().wind_W);
+  wind_.true_wind = toVector3Message(wind_W);
+  wind_.apparent = toVector3Message(rotate(conjugate(hull.q_WH), wind_W) - hull.v_WH_H);
 }
 
 void VehicleMessages::fillCushion(const hovercraft::Simulation& simulation) {

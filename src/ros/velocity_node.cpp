@@ -1,12 +1,16 @@
 #include "hovercraft_sim/ros/velocity_node.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <ros/console.h>
 #include <ros/single_subscriber_publisher.h>
 #include <ros/transport_hints.h>
 
+#include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/velocity_parameters.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
@@ -43,9 +47,19 @@ VelocityNode::VelocityNode(ros::NodeHandle& handle, const VelocityNodeConfig& co
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   // In lockstep the simulation waits for the first answer even if it came before its connection.
   const ros::SubscriberStatusCallback repeat = [this](const ros::SingleSubscriberPublisher& to) {
-    if (!answer_.header.stamp.isZero()) to.publish(answer_);
+    if (thrusts_.header.stamp.isZero()) return;
+    if (hasEnginesOnly()) {
+      to.publish(thrusts_);
+    } else {
+      to.publish(levels_);
+    }
   };
-  thrust_ = handle.advertise<hovercraft_sim::ThrustCommand>("thrust", 10, repeat);
+  for (const auto& actuator : config_.plant.actuators) levels_.names.push_back(actuator.name);
+  levels_.values.resize(levels_.names.size());
+  answers_ =
+      hasEnginesOnly()
+          ? handle.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, 10, repeat)
+          : handle.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, 10, repeat);
   const boost::function<void(const geometry_msgs::Twist&)> take =
       [this](const geometry_msgs::Twist& command) { this->take(command); };
   commands_ =
@@ -85,18 +99,37 @@ void VelocityNode::answer(const nav_msgs::Odometry& odometry) {
   if (dt < 0.0 && !has_new_command_) commanded_ns_.reset();
   if (has_new_command_ && (!commanded_ns_ || dt < 0.0)) commanded_ns_ = now_ns;
   has_new_command_ = false;
-  hovercraft_sim::ThrustCommand command;
-  command.header.stamp = odometry.header.stamp;
+  hovercraft::Thrusts levels{};
   if (isDead(now_ns) || dt < 0.0) {
     law_.reset();
   } else {
-    const hovercraft::Thrusts f = law_.thrusts(command_, measured, dt);
-    command.rear = f[0];
-    command.left = f[1];
-    command.right = f[2];
+    levels = law_.levels(command_, measured, dt);
   }
-  answer_ = command;
-  thrust_.publish(answer_);
+  answer(odometry.header.stamp, levels);
+}
+
+/// By one message whatever the actuators are: in lockstep one is taken.
+void VelocityNode::answer(const ros::Time& stamp, const hovercraft::Thrusts& levels) {
+  for (std::size_t i = 0; i < config_.plant.actuators.size(); ++i) {
+    const std::string& name = config_.plant.actuators[i].name;
+    if (name == hovercraft::kEngineNames[0]) thrusts_.rear = levels[i];
+    if (name == hovercraft::kEngineNames[1]) thrusts_.left = levels[i];
+    if (name == hovercraft::kEngineNames[2]) thrusts_.right = levels[i];
+    levels_.values[i] = levels[i];
+  }
+  thrusts_.header.stamp = levels_.header.stamp = stamp;
+  if (hasEnginesOnly()) {
+    answers_.publish(thrusts_);
+  } else {
+    answers_.publish(levels_);
+  }
+}
+
+bool VelocityNode::hasEnginesOnly() const {
+  return std::all_of(levels_.names.begin(), levels_.names.end(), [](const std::string& name) {
+    const auto& engines = hovercraft::kEngineNames;
+    return std::find(engines.begin(), engines.end(), name) != engines.end();
+  });
 }
 
 }  // namespace hovercraft_ros

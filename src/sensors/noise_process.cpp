@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/noise.h"
 
 namespace hovercraft {
@@ -19,10 +20,8 @@ Vector3 firstNormals(const NoiseChannel& channel, Tick tick) {
 
 /// All six: two of each draw.
 std::array<Vector3, 2> sixNormals(const NoiseChannel& channel, Tick tick) {
-  const auto a = channel.normals(tick, 0);
-  const auto b = channel.normals(tick, 1);
-  const auto c = channel.normals(tick, 2);
-  return {Vector3(a[0], a[1], b[0]), Vector3(b[1], c[0], c[1])};
+  const auto z = channel.sixNormals(tick);
+  return {Vector3(z[0], z[1], z[2]), Vector3(z[3], z[4], z[5])};
 }
 
 /// A bias by its decay rate, 1/s, and its stationary sigma.
@@ -56,12 +55,13 @@ BiasLaw biasLaw(const NoiseParameters& p, double period) {
 
 NoiseProcess::NoiseProcess(const NoiseParameters& parameters, double period,
                            const std::string& channel)
-    : offset_(parameters.offset),
-      gain_(1.0 + parameters.scale),
-      white_(parameters.gaussian_noise > 0.0 ? parameters.gaussian_noise
-                                             : parameters.noise_density / std::sqrt(period)),
-      turn_on_(parameters.turn_on_bias_sigma),
-      stream_(streamOf(channel)) {
+    : stream_(streamOf(channel)) {
+  const FloatingPointEnvironment environment;
+  offset_ = parameters.offset;
+  gain_ = 1.0 + parameters.scale;
+  white_ = parameters.gaussian_noise > 0.0 ? parameters.gaussian_noise
+                                           : parameters.noise_density / std::sqrt(period);
+  turn_on_ = parameters.turn_on_bias_sigma;
   const BiasLaw law = biasLaw(parameters, period);
   decay_ = law.decay;
   kick_ = law.kick;
@@ -69,6 +69,7 @@ NoiseProcess::NoiseProcess(const NoiseParameters& parameters, double period,
 }
 
 NoiseProcess::Memory NoiseProcess::start(std::int64_t seed) const {
+  const FloatingPointEnvironment environment;
   const auto [turn_on, bias] = sixNormals(NoiseChannel(seed, stream_), kStart);
   return {stationary_ * bias, turn_on_ * turn_on};
 }
@@ -85,6 +86,7 @@ Vector3 NoiseProcess::measure(std::int64_t seed, Tick tick, const Vector3& truth
 }
 
 double NoiseProcess::variance() const {
+  const FloatingPointEnvironment environment;
   return (white_ * white_ + turn_on_ * turn_on_) + stationary_ * stationary_;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/sensors/inertial_models.h"
 #include "hovercraft_sim/sensors/laser_model.h"
@@ -47,6 +48,7 @@ struct ChannelParameters {
 
 std::unique_ptr<SensorModel> makeSensorModel(const SensorParameters& parameters,
                                              const SensorSite& site) {
+  const FloatingPointEnvironment environment;
   SensorMount mount;
   mount.R_BS = rotationFromRpy(parameters.rpy);
   mount.p_HS = parameters.p_HS;
@@ -58,6 +60,7 @@ std::unique_ptr<SensorModel> makeSensorModel(const SensorParameters& parameters,
 }
 
 std::vector<double> sampleVariances(const SensorParameters& parameters, double step) {
+  const FloatingPointEnvironment environment;
   const double period = static_cast<double>(parameters.period) * step;
   std::vector<double> variances;
   for (const NoiseParameters& noise : std::visit(ChannelParameters(), parameters.model)) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/noise.h"
 
 namespace hovercraft {
@@ -28,6 +29,7 @@ SensorSuite::SensorSuite(std::vector<SensorCarrier> carriers, SensorSurroundings
                          std::int64_t step_ns)
     : carriers_(std::move(carriers)),
       surroundings_(std::make_unique<SensorSurroundings>(std::move(surroundings))) {
+  const FloatingPointEnvironment environment;
   const RayGround* const ground = surroundings_->ground ? &*surroundings_->ground : nullptr;
   for (std::size_t vehicle = 0; vehicle < carriers_.size(); ++vehicle) {
     const SensorCarrier& carrier = carriers_[vehicle];
@@ -68,6 +70,7 @@ SensedInstant SensorSuite::instantOf(std::size_t vehicle, std::int64_t seed, Tic
 
 std::vector<SensorState> SensorSuite::start(std::int64_t seed, Tick tick,
                                             const BodyStates& bodies) const {
+  const FloatingPointEnvironment environment;
   std::vector<SensorState> states;
   states.reserve(sensors_.size());
   for (const Sensor& sensor : sensors_) {
@@ -82,6 +85,7 @@ std::vector<SensorState> SensorSuite::start(std::int64_t seed, Tick tick,
 
 void SensorSuite::sample(std::int64_t seed, Tick tick, const BodyStates& bodies,
                          std::vector<SensorState>& states) {
+  const FloatingPointEnvironment environment;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     Sensor& sensor = sensors_[i];
     if (tick % sensor.period != 0) continue;
@@ -110,6 +114,7 @@ void SensorSuite::deliver(Tick tick, std::vector<SensorState>& states,
 
 void SensorSuite::relocate(std::size_t vehicle, std::int64_t seed, Tick tick,
                            const BodyStates& bodies, std::vector<SensorState>& states) const {
+  const FloatingPointEnvironment environment;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     if (sensors_[i].vehicle != vehicle) continue;
     sensors_[i].model->relocate(instantOf(vehicle, seed, tick, bodies), states[i].memory.data());

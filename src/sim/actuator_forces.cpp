@@ -55,6 +55,7 @@ RudderForce rudderOf(std::size_t id, const ActuatorScenario& rudder,
 
 std::vector<Force> forcesOf(const VehicleScenario& vehicle) {
   std::vector<Force> forces;
+  if (vehicle.polar) forces.emplace_back(PolarForce{*vehicle.polar});
   for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
     const ActuatorScenario& actuator = vehicle.actuators[i];
     const std::size_t id = kFirstActuator + i;
@@ -73,6 +74,19 @@ std::vector<Force> forcesOf(const VehicleScenario& vehicle) {
     }
   }
   return forces;
+}
+
+std::vector<FanDrive> fanDrivesOf(const VehicleScenario& vehicle) {
+  std::vector<FanDrive> drives;
+  if (!vehicle.cushion) return drives;
+  const std::vector<CushionFan>& fans = vehicle.cushion->fans;
+  for (std::size_t fan = 0; fan < fans.size(); ++fan) {
+    for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
+      if (fans[fan].lift_fan != vehicle.actuators[i].name) continue;
+      drives.push_back({fan, kFirstActuator + i});
+    }
+  }
+  return drives;
 }
 
 }  // namespace hovercraft

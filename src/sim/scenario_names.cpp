@@ -33,6 +33,11 @@ const std::vector<std::string>& actuatorKindNames() {
   return names;
 }
 
+const std::vector<std::string>& gustModelNames() {
+  static const std::vector<std::string> names = {"first_order", "dryden"};
+  return names;
+}
+
 const std::vector<std::string>& tfSourceNames() {
   static const std::vector<std::string> names = {"truth", "odometry", "none"};
   return names;

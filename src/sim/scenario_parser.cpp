@@ -11,6 +11,7 @@
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/actuator_parser.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/cushion_parser.h"
 #include "hovercraft_sim/sim/ground_parser.h"
@@ -160,12 +161,14 @@ void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& 
   }
 }
 
-void parseDrag(const ConfigReader& drag, Drag& result) {
-  drag.allowOnly({"linear", "quadratic", "angular_linear", "angular_quadratic"});
+void parseDrag(const ConfigReader& drag, VehicleScenario& vehicle) {
+  drag.allowOnly({"linear", "quadratic", "angular_linear", "angular_quadratic", "polar"});
+  Drag& result = vehicle.drag;
   result.linear = drag.vectorOr(Vector3::Zero(), "linear", kNotNegative);
   result.quadratic = drag.vectorOr(Vector3::Zero(), "quadratic", kNotNegative);
   result.angular_linear = drag.vectorOr(Vector3::Zero(), "angular_linear", kNotNegative);
   result.angular_quadratic = drag.vectorOr(Vector3::Zero(), "angular_quadratic", kNotNegative);
+  vehicle.polar = parsePolar(drag);
 }
 
 }  // namespace
@@ -179,7 +182,7 @@ VehicleScenario parseMovingBody(const std::string& name, const ConfigReader& rea
   vehicle.name = name;
   parseMass(reader, source, vehicle);
   vehicle.visual = parseVisual(reader, source);
-  if (reader.has("drag")) parseDrag(reader.map("drag"), vehicle.drag);
+  if (reader.has("drag")) parseDrag(reader.map("drag"), vehicle);
   if (reader.has("initial")) parseInitial(reader.map("initial"), model, vehicle);
   return vehicle;
 }
@@ -193,7 +196,7 @@ VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   parseEngines(reader, vehicle);
   if (reader.has("actuators")) vehicle.actuators = parseActuators(reader.map("actuators"));
-  vehicle.cushion = parseCushion(reader);
+  vehicle.cushion = parseCushion(reader, vehicle.actuators);
   return vehicle;
 }
 
@@ -212,7 +215,7 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
   reader.allowOnly({"physics_version", "step_size", "integrator", "orientation", "model", "gravity",
-                    "wind", "seed", "vehicles", "world", "ground"});
+                    "wind", "gusts", "seed", "vehicles", "world", "ground"});
   Scenario scenario;
   checkPhysicsVersion(reader);
   scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
@@ -223,7 +226,7 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   scenario.model = static_cast<BodyModel>(
       reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", modelNames()));
   scenario.gravity = reader.vectorOr(Vector3::Zero(), "gravity");
-  scenario.wind = reader.vectorOr(Vector3::Zero(), "wind");
+  parseAir(reader, scenario);
   scenario.seed = reader.wholeNumberOr(scenario.seed, "seed");
   for (const auto& [name, vehicle] : reader.map("vehicles").maps()) {
     scenario.vehicles.push_back(parseVehicle(name, vehicle, source, scenario.model));

@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/actuator_parser.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/cushion_parser.h"
 #include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
@@ -90,9 +91,10 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
   yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";
   yaml += fmt::format(
-      "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}}}\n",
+      "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}{}}}\n",
       yamlVector(vehicle.drag.linear), yamlVector(vehicle.drag.quadratic),
-      yamlVector(vehicle.drag.angular_linear), yamlVector(vehicle.drag.angular_quadratic));
+      yamlVector(vehicle.drag.angular_linear), yamlVector(vehicle.drag.angular_quadratic),
+      polarYaml(vehicle));
   yaml +=
       fmt::format("    initial: {{position: {}, rpy: {}, velocity: {}, angular_velocity: {}}}\n",
                   yamlVector(vehicle.initial_p_WB), yamlVector(vehicle.initial_rpy),
@@ -106,12 +108,12 @@ std::string toYaml(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   std::string yaml = fmt::format(
       "physics_version: {}\nstep_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\n"
-      "gravity: {}\nwind: {}\nseed: {}\nvehicles:\n",
+      "gravity: {}\nwind: {}\n{}seed: {}\nvehicles:\n",
       kPhysicsVersion, yamlNumber(scenario.stepSize()),
       integratorNames()[static_cast<std::size_t>(scenario.integrator)],
       orientationNames()[static_cast<std::size_t>(scenario.orientation)],
       modelNames()[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),
-      yamlVector(scenario.wind), scenario.seed);
+      yamlVector(scenario.wind), gustsYaml(scenario), scenario.seed);
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     yaml += vehicleText(vehicle, scenario, true);
   }

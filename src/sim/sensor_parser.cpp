@@ -8,6 +8,7 @@
 #include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/noise.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/step_time.h"
 #include "hovercraft_sim/sim/yaml_text.h"
@@ -17,11 +18,16 @@ namespace {
 
 using Keys = std::vector<std::string>;
 
-constexpr double kMostNoise = 1e30;               // of any unit: its square is still a number
-constexpr double kMostBeams = 20000.0;            // a turn in steps of a minute of arc
-constexpr double kLongestLatency = 60.0;          // s
-constexpr std::size_t kMostOnTheirWay = 1000000;  // numbers of one sensor that wait
-constexpr double kStandardGravity = 9.80665;      // m/s²
+constexpr double kMostNoise = 1e30;       // of any unit: its square is still a number
+constexpr double kMostBeams = 20000.0;    // a turn in steps of a minute of arc
+constexpr double kLongestLatency = 60.0;  // s
+
+/// Numbers of all sensors that wait to be delivered. Snapshots hold them in up to 26 bytes each,
+/// and take what is a text of kLongestYamlText and of kMostYamlValues at most.
+constexpr double kMostOnTheirWay = 600000.0;
+constexpr double kNumbersOfASample = 6.0;  // what a sample takes besides its values: as much text
+
+constexpr double kStandardGravity = 9.80665;  // m/s²
 
 const NumberRule kNoise = {[](double x) { return x >= 0.0 && x <= kMostNoise; },
                            "must be 0 to 1e30"};
@@ -231,14 +237,15 @@ SensorParameters parseSensor(const std::string& name, const ConfigReader& reader
   sensor.p_HS = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   sensor.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
   parseModel(reader, kind, context, sensor);
-  const auto on_their_way = static_cast<double>(sensor.latency_ns) /
-                            (static_cast<double>(sensor.period * context.scenario.step_ns));
-  if ((on_their_way + 1.0) * static_cast<double>(sampleFields(sensor).size()) >
-      static_cast<double>(kMostOnTheirWay)) {
-    reader.fail("latency", fmt::format("must be so short that at most {} numbers are on their way",
-                                       kMostOnTheirWay));
-  }
   return sensor;
+}
+
+/// What may wait of a sensor's samples, in numbers of a snapshot.
+double numbersOnTheirWay(const SensorParameters& sensor, const Scenario& scenario) {
+  const double samples =
+      static_cast<double>(sensor.latency_ns) /
+      (static_cast<double>(sensor.period) * static_cast<double>(scenario.step_ns));
+  return (samples + 1.0) * (static_cast<double>(sampleFields(sensor).size()) + kNumbersOfASample);
 }
 
 void parseTf(const ConfigReader& reader, VehicleScenario& vehicle) {
@@ -295,14 +302,34 @@ std::string sensorText(const SensorParameters& sensor) {
 
 }  // namespace
 
+namespace {
+
+/// Sensors have other noise than the gusts, too.
+void addGusts(const Scenario& scenario, NoiseStreams& streams) {
+  if (!scenario.gusts) return;
+  for (const std::string& body : bodyNames(scenario)) {
+    for (const std::string& channel : Gusts::channelsOf(body)) streams.add(channel);
+  }
+}
+
+}  // namespace
+
 void parseSensors(const ConfigReader& top, Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
   NoiseStreams streams;
+  addGusts(scenario, streams);
+  double on_their_way = 0.0;
   for (VehicleScenario& vehicle : scenario.vehicles) {
     const ConfigReader reader = vehicles.map(vehicle.name);
     if (reader.has("sensors")) {
       for (const auto& [name, sensor] : reader.map("sensors").maps()) {
         vehicle.sensors.push_back(parseSensor(name, sensor, {scenario}));
+        on_their_way += numbersOnTheirWay(vehicle.sensors.back(), scenario);
+        if (on_their_way > kMostOnTheirWay) {
+          sensor.fail("latency", fmt::format("must be so short that at most {:.0f} numbers are on "
+                                             "their way, of all sensors together",
+                                             kMostOnTheirWay));
+        }
         try {
           for (const std::string& channel : channelNames(vehicle.name, vehicle.sensors.back())) {
             streams.add(channel);

@@ -9,6 +9,7 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/cushion_builder.h"
 #include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
@@ -30,6 +31,11 @@ bool isSound(const RigidBodyState<Orientation>& body) {
   // A number that is not finite makes the sum so.
   const Vector3 sum = (body.p_WB + body.momentum_W) + body.angular_momentum_W;
   return std::isfinite((sum.x() + sum.y()) + sum.z()) && isRotation(body.orientation);
+}
+
+/// The speed of a fan at the level of its actuator: a level may lie below its limit by rounding.
+double fanSpeedAt(double level) {
+  return std::max(0.0, level);
 }
 
 /// Ends what drag left of the momenta before it becomes denormal numbers.
@@ -54,12 +60,14 @@ Simulation::Simulation(Scenario scenario)
   const FloatingPointEnvironment environment;
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     engine_dynamics_.emplace_back(parametersOf(vehicle), scenario_.step_ns);
+    fan_drives_.push_back(fanDrivesOf(vehicle));
   }
   inputs_.resize(world_.scene().bodies().size());
-  environment_.wind_W = scenario_.wind;
-  environment_.ground = ground_.get();
-  environment_.bare_ground = bare_ground_.get();
-  for (StepInputs& inputs : inputs_) inputs.environment = environment_;
+  for (StepInputs& inputs : inputs_) {
+    inputs.environment.ground = ground_.get();
+    inputs.environment.bare_ground = bare_ground_.get();
+  }
+  gusts_ = gustsOf(scenario_);
   sensors_ = sensorSuiteOf(scenario_);
   reset(scenario_.seed);
 }
@@ -80,15 +88,24 @@ void Simulation::reset(std::int64_t seed) {
     for (const VehicleScenario& body : scenario_.world->bodies) start(body);
     world_.partTouching(state_.bodies);
   }
+  state_.wind_W = scenario_.wind;
+  for (std::size_t body = 0; gusts_ && body < state_.bodies.size(); ++body) {
+    state_.gusts.push_back(gusts_->start(body, seed));
+  }
+  refreshWind();
   if (sensors_) state_.sensors = sensors_->start(seed, state_.tick, state_.bodies);
 }
 
 void Simulation::restore(const SimulationState& state) {
+  const FloatingPointEnvironment environment;
   demand(state.bodies.size() == inputs_.size() && state.engines.size() == vehicleCount(),
          "a state must come from the same scenario");
+  demand(state.gusts.size() == (gusts_ ? inputs_.size() : 0) && state.wind_W.allFinite(),
+         "what gusts remember must come from the same scenario");
   demand(!sensors_ || sensors_->fits(state.sensors, state.tick),
          "what sensors remember must come from the same scenario");
   state_ = state;
+  refreshWind();
 }
 
 void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
@@ -166,13 +183,24 @@ void Simulation::applyDueCommands() {
   }
 }
 
-/// The speeds of the fans over the step, at its stages.
-void Simulation::turnFans(const Cushion& cushion, FanSpeedCourse& course) const {
+/// The speeds of the fans of a craft's cushion over the step, at its stages: as they are described,
+/// and of those that actuators turn the actuators' levels.
+void Simulation::turnFans(std::size_t vehicle) {
+  const auto& forces = modelOf(vehicle).ground_forces;
+  if (forces == nullptr || !forces->cushion()) return;
+  const Cushion& cushion = *forces->cushion();
+  StepInputs& inputs = inputs_[vehicle];
+  FanSpeedCourse& course = inputs.fan_speeds;
   const double start = toSeconds(timeNs());
   const double h = toSeconds(scenario_.step_ns);
   course.start = cushion.describedSpeeds(start);
   course.middle = cushion.describedSpeeds(start + 0.5 * h);
   course.end = cushion.describedSpeeds(start + h);
+  for (const FanDrive& drive : fan_drives_[vehicle]) {
+    course.start[drive.fan] = fanSpeedAt(inputs.thrusts.start[drive.actuator]);
+    course.middle[drive.fan] = fanSpeedAt(inputs.thrusts.middle[drive.actuator]);
+    course.end[drive.fan] = fanSpeedAt(inputs.thrusts.end[drive.actuator]);
+  }
 }
 
 /// What acts on each body in the step that begins now.
@@ -182,8 +210,7 @@ void Simulation::prepareInputs() {
     StepInputs& inputs = inputs_[vehicle];
     engine_dynamics_[vehicle].course(engines, state_.tick, inputs.thrusts);
     inputs.is_loaded = false;
-    const auto& forces = modelOf(vehicle).ground_forces;
-    if (forces != nullptr && forces->cushion()) turnFans(*forces->cushion(), inputs.fan_speeds);
+    turnFans(vehicle);
     ++vehicle;
   }
   for (const ExternalWrench& external : state_.wrenches) {
@@ -216,6 +243,7 @@ void Simulation::step() {
     takeResult();
   }
   ++state_.tick;
+  if (gusts_) blow();
   if (on_contact) {
     sortRecords();
     for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
@@ -317,12 +345,15 @@ void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const
   report.fan_speeds.clear();
   report.power = 0.0;
   if (report.cells.empty()) return;
-  const BodyMotion motion =
-      std::visit([&](const auto& state) { return model.motionInBody(state, environment_); },
-                 state_.bodies[vehicle]);
+  const Environment& around = inputs_[vehicle].environment;
+  const BodyMotion motion = std::visit(
+      [&](const auto& state) { return model.motionInBody(state, around); }, state_.bodies[vehicle]);
   const GroundForces& forces = *model.ground_forces;
-  const FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
-  forces.report(motion, environment_, speeds, report.cells.data());
+  FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
+  for (const FanDrive& drive : fan_drives_[vehicle]) {
+    speeds[drive.fan] = fanSpeedAt(state_.engines[vehicle][drive.actuator].thrust);
+  }
+  forces.report(motion, around, speeds, report.cells.data());
   for (const CellReport& cell : report.cells) report.power += cell.pressure * cell.flow;
   const std::size_t fan_count = forces.cushion()->parameters().fans.size();
   report.fan_speeds.assign(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(fan_count));
@@ -345,6 +376,7 @@ std::uint64_t Simulation::hash(std::size_t vehicle) const {
   for (const ExternalWrench& wrench : state_.wrenches) {
     if (wrench.vehicle == vehicle) hash.add(wrench);
   }
+  addAir(hash, vehicle, vehicle + 1);
   return hash.value();
 }
 
@@ -358,6 +390,7 @@ std::uint64_t Simulation::hash() const {
   for (const ExternalWrench& wrench : state_.wrenches) hash.add(wrench);
   for (std::size_t i = vehicleCount(); i < state_.bodies.size(); ++i) hash.add(state_.bodies[i]);
   for (const ContactMemory& contact : state_.contacts) hash.add(contact);
+  addAir(hash, 0, state_.bodies.size());
   return hash.value();
 }
 

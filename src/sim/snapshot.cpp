@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 #include <sstream>
+#include <stdexcept>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/snapshot_air.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/yaml_text.h"
@@ -121,6 +123,7 @@ std::string toSnapshot(const Simulation& simulation) {
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
   for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
+  yaml += airText(scenario, state);
   yaml += sensorStatesText(simulation);
   const std::vector<Command> commands = state.commands.waiting();
   if (!commands.empty()) yaml += "commands:\n";
@@ -132,7 +135,13 @@ std::string toSnapshot(const Simulation& simulation) {
 }
 
 void saveSnapshot(const Simulation& simulation, const std::string& path) {
-  writeWholeFile(path, toSnapshot(simulation));
+  const std::string text = toSnapshot(simulation);
+  if (text.size() > kMostSnapshotBytes) {
+    throw std::invalid_argument(
+        fmt::format("{}: the snapshot has {} bytes: must be at most {}, or it could not be loaded",
+                    path, text.size(), kMostSnapshotBytes));
+  }
+  writeWholeFile(path, text);
 }
 
 std::string readSnapshotText(const std::string& path) {

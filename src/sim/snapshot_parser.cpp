@@ -11,6 +11,7 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
+#include "hovercraft_sim/sim/snapshot_air.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
 #include "hovercraft_sim/sim/version.h"
 #include "hovercraft_sim/sim/yaml_text.h"
@@ -302,6 +303,7 @@ SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
   } else if (reader.has("bodies")) {
     reader.fail("bodies", "there are none in the scenario");
   }
+  parseAirState(reader, scenario, state);
   state.contacts = parseContacts(reader, started.world());
   state.sensors = parseSensorStates(reader, state.tick, started);
   state.commands = parseCommands(reader, scenario, state.tick);
@@ -371,7 +373,8 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
   const FloatingPointEnvironment environment;
   const ConfigReader reader(snapshotTree(text, source), source, "", false);
   reader.allowOnly({"format", "physics_version", "tick", "seed", "hash", "vehicles", "wrenches",
-                    "bodies", "contacts", "sensor_hash", "sensors", "commands", "scenario"});
+                    "bodies", "wind", "gusts", "contacts", "sensor_hash", "sensors", "commands",
+                    "scenario"});
   checkVersions(reader);
   if (!isTextOf(scenario, reader.text("scenario"), source)) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
@@ -384,6 +387,7 @@ SimulationState parseSnapshot(const std::string& text, const std::string& source
     reader.fail("hash", fmt::format("must be that of the state, {}: it was changed", hash));
   }
   checkSensorHash(reader, check);
+  checkAir(reader, check);
   checkMotions(reader, check);
   return state;
 }

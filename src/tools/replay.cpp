@@ -17,6 +17,9 @@ int main(int argc, char** argv) {
     add("set,s", po::value(&request.sets)->composing(),
         "KEY.PATH=VALUE: change the scenario first, such as vehicles.hovercraft.mass=6; several "
         "with ; between them");
+    add("truth-odom", po::value(&request.truth_odom)->default_value(request.truth_odom),
+        "in the output, the topic of the true odometry; with another name than odom, the first "
+        "odometry sensor is on odom");
     add("help,h", "this text");
     add("version", "of the package, and of the physics");
     po::positional_options_description positions;

@@ -31,6 +31,9 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
       "cells of cushions (.csv): pressure, gap, flow, force");
   add("sensors", po::value(&request.sensors),
       "folder for the samples of the sensors, one CSV file each: VEHICLE.SENSOR.csv");
+  add("truth-odom", po::value(&request.truth_odom)->default_value(request.truth_odom),
+      "in a bag, the topic of the true odometry; with another name than odom, the first odometry "
+      "sensor is on odom");
   add("every,e", po::value(&request.every)->default_value(request.every),
       "put out every N-th tick");
   add("hold", po::bool_switch(&request.hold), "commands hold for ever: no engine times out");

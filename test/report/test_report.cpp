@@ -292,6 +292,16 @@ TEST_F(Report, ARunOfThisPackageHasThrustsLedgerAndHash) {
   EXPECT_FALSE(data.scenario_text.empty());
 }
 
+// The drag's work is that of the wind that was met, gusts and a polar included.
+TEST_F(Report, TheLedgerOfACraftInGustsCloses) {
+  const RunData data =
+      run(flown("gusts.bag", contentOf("config/gusts.yaml"), 8.0, contentOf("config/gusts.csv")));
+  const RunBody& craft = data.bodies.at(0);
+  ASSERT_TRUE(craft.ledger);
+  EXPECT_GT(std::abs(craft.ledger->drag), 1.0);
+  EXPECT_LT(std::abs(craft.ledger->others), 5e-3 * std::abs(craft.ledger->drag));
+}
+
 TEST_F(Report, TwoRunsArePartedWhereTheyPart) {
   const std::string scenario = hovercraft::testing::oneCraftYaml();
   const std::string a = flown("a.bag", scenario, 0.5, "time,rear,left,right\n0.2,1,0,0\n");

@@ -191,5 +191,24 @@ TEST(ActuatorCommand, IsTakenWholeOrNotAtAll) {
   EXPECT_FALSE(refused({"fr"}, {0.01}));
 }
 
+// So that one message commands all of a craft: in lockstep one is taken.
+TEST(ActuatorCommand, NamesEnginesToo) {
+  const hovercraft::Scenario scenario =
+      hovercraft_ros::loadScenarioFile("test/rostest/four_fans.yaml");
+  hovercraft_sim::ActuatorCommand message;
+  message.names = {"tail", "rear"};
+  message.values = {0.1, 0.03};
+  const auto command = toCommand(message, scenario.vehicles[0], 0, 7);
+  ASSERT_TRUE(command);
+  EXPECT_EQ(command->engines,
+            hovercraft::maskOf(std::size_t{0}) | hovercraft::maskOf(std::size_t{8}));
+  EXPECT_EQ(command->thrusts[0], 0.03);
+  EXPECT_EQ(command->thrusts[8], 0.1);
+  message.names = {"rear", "rear"};
+  EXPECT_FALSE(toCommand(message, scenario.vehicles[0], 0, 7));
+  message.names = {"tail", "left"};  // it has none
+  EXPECT_FALSE(toCommand(message, scenario.vehicles[0], 0, 7));
+}
+
 }  // namespace
 }  // namespace hovercraft_ros

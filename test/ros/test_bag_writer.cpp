@@ -87,6 +87,7 @@ TEST_F(BagOfARun, HasTheTopicsOfTheNode) {
     expected[craft + "/odom"] = "nav_msgs/Odometry";
     expected[craft + "/engines"] = "hovercraft_sim/EngineStatus";
     expected[craft + "/state"] = "hovercraft_sim/State";
+    expected[craft + "/wind"] = "hovercraft_sim/Wind";
     expected[craft + "/commands"] = "hovercraft_sim/AppliedCommand";
   }
   EXPECT_EQ(types, expected);

@@ -116,6 +116,53 @@ TEST_F(SensorBag, HoldsEachSampleAtTheTimeOfItsDelivery) {
   EXPECT_EQ(read<sensor_msgs::LaserScan>(bag, std::string(kCraft) + "scan").size(), 19U);
 }
 
+// As the node does with the parameter truth_odom.
+TEST_F(SensorBag, HasTheTruthOnAnotherTopicAndTheNoisyOdometryOnOdom) {
+  SimulateRequest asked = request("run.bag");
+  asked.truth_odom = "truth/odom";
+  const std::string bag = run(asked);
+  const auto truth = read<nav_msgs::Odometry>(bag, std::string(kCraft) + "truth/odom");
+  const auto noisy = read<nav_msgs::Odometry>(bag, std::string(kCraft) + "odom");
+  ASSERT_EQ(truth.size(), 200U);
+  ASSERT_EQ(noisy.size(), 100U);
+  EXPECT_EQ(truth.back().second.header.frame_id, "world");
+  EXPECT_EQ(noisy.back().second.header.frame_id, "hovercraft/odom");
+  EXPECT_TRUE(read<nav_msgs::Odometry>(bag, std::string(kCraft) + "odometry").empty());
+  const auto [status, verdict] = replayed(bag);
+  EXPECT_EQ(status, 0) << verdict;
+  // 399 of the IMU, 2 x 9 fixes, 100 of odometry, 100 of the compass, 19 scans.
+  EXPECT_NE(verdict.find("and 636 messages of sensors"), std::string::npos) << verdict;
+}
+
+TEST_F(SensorBag, RefusesATopicOfTheTruthThatIsNoneOfTheCraft) {
+  for (const char* topic : {"", "/odom", "truth odom", "truth//odom", "odom/"}) {
+    SimulateRequest asked = request("run.bag");
+    asked.truth_odom = topic;
+    EXPECT_EQ(hovercraft::testing::messageOf([&] { run(asked); }),
+              "--truth-odom = " + std::string(topic) +
+                  ": must be a topic below the craft's namespace, such as truth/odom");
+  }
+  SimulateRequest asked = request("run.csv");
+  asked.truth_odom = "truth/odom";
+  EXPECT_EQ(hovercraft::testing::messageOf([&] { run(asked); }),
+            "--truth-odom: has a meaning with an --output that is a bag only");
+}
+
+// /hovercraft/hovercraft/imu/data ends as /hovercraft/imu/data does: it is of the sensor
+// "hovercraft".
+TEST_F(SensorBag, TellsASensorOfTheCraftsNameFromTheFirstOne) {
+  SimulateRequest asked = request("run.bag");
+  asked.scenario = "config/hovercraft.yaml";
+  asked.sets = {
+      "vehicles.hovercraft.sensors={aft: {kind: imu, rate: 100, gyroscope_noise_density: 1e-3}, "
+      "hovercraft: {kind: imu, rate: 100, gyroscope_noise_density: 1e-3}}"};
+  const std::string bag = run(asked);
+  EXPECT_EQ(read<sensor_msgs::Imu>(bag, std::string(kCraft) + "hovercraft/imu/data").size(), 200U);
+  const auto [status, verdict] = replayed(bag);
+  EXPECT_EQ(status, 0) << verdict;
+  EXPECT_NE(verdict.find("and 400 messages of sensors"), std::string::npos) << verdict;
+}
+
 TEST_F(SensorBag, HasOneParentOfEachFrame) {
   const std::string bag = run(request("run.bag"));
   std::map<std::string, std::set<std::string>> parents;

@@ -83,7 +83,8 @@ TEST_F(Tools, SimulateAndCompareWorkTogether) {
 }
 
 TEST_F(Tools, EachSaysItsVersionAndThatOfThePhysics) {
-  for (const char* tool : {"closest", "compare", "mass_properties", "replay", "simulate"}) {
+  for (const char* tool : {"closest", "compare", "cushion", "mass_properties", "occupancy",
+                           "replay", "report", "simulate", "velocity_gains"}) {
     const Outcome outcome = run(std::string(tool) + " --version");
     EXPECT_EQ(outcome.status, 0) << tool;
     EXPECT_EQ(outcome.output, std::string(tool) + " of hovercraft_sim 0.2.0, physics version 1\n");

@@ -146,20 +146,23 @@ class SensorsTest(unittest.TestCase):
     def replayed(self, change=None):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'run.bag')
+            sensors = {CRAFT + topic for topic in TOPICS} | {CRAFT + 'scan'}
+            written = 0
             with rosbag.Bag(path, 'w') as bag, self.lock:
                 for topic, message in self.order:
                     if change is not None:
                         change(topic, message)
                     bag.write(topic, message, rospy.Time(1))
+                    written += topic in sensors
             done = subprocess.run(['rosrun', 'hovercraft_sim', 'replay', path], stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, universal_newlines=True, timeout=DEADLINE)
-            return done.returncode, done.stdout
+            return done.returncode, done.stdout, written
 
     def test_the_recording_replays_with_its_sensors(self):
-        status, words = self.replayed()
+        status, words, written = self.replayed()
         self.assertEqual(status, 0, words)
-        samples = sum(self.count(CRAFT + topic) for topic in TOPICS) + self.count(CRAFT + 'scan')
-        self.assertIn(f'and {samples} messages of sensors compared', words)
+        self.assertGreater(written, 1000)
+        self.assertIn(f'and {written} messages of sensors compared', words)
 
     def test_a_changed_bit_of_a_sample_is_found(self):
         wanted = self.heard[CRAFT + 'imu/data'][100]
@@ -168,7 +171,7 @@ class SensorsTest(unittest.TestCase):
         def change(_, message):
             if message is wanted:
                 message.angular_velocity.z = kept * (1 + 1e-15)
-        status, words = self.replayed(change)
+        status, words, _ = self.replayed(change)
         wanted.angular_velocity.z = kept
         self.assertEqual(status, 1, words)
         self.assertIn('different: episode 0, tick 505, hovercraft: imu/data', words)

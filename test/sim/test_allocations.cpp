@@ -44,13 +44,17 @@ long allocationsWhileDriven(const Scenario& scenario) {
 }
 
 TEST(Allocations, NoneInAStepOnACushionOverAnyGround) {
-  for (const char* name : {"rc5", "rough", "ramp"}) {
+  for (const char* name : {"rc5", "rough", "ramp", "lift_fan"}) {
     Simulation simulation(loadScenario("config/" + std::string(name) + ".yaml"));
     for (int n = 0; n < 300; ++n) simulation.step();
     const long before = allocations;
     for (int n = 0; n < 300; ++n) simulation.step();
     EXPECT_EQ(allocations - before, 0) << name;
   }
+}
+
+TEST(Allocations, NoneInAStepOfGusts) {
+  EXPECT_EQ(allocationsWhileDriven(loadScenario("config/gusts.yaml")), 0);
 }
 
 TEST(Allocations, NoneInAStepWithEverySensor) {

@@ -17,6 +17,7 @@ namespace {
 using testing::complaintAbout;
 using testing::kMassByNumbers;
 using testing::messageOf;
+using testing::notesOn;
 using testing::parsed;
 using testing::validScenario;
 using testing::with;
@@ -29,14 +30,6 @@ std::string withMeshKeys(const std::string& keys, const std::string& mass = "mas
 
 std::string withVisual(const std::string& visual) {
   return with(validScenario(), kMassByNumbers, kMassByNumbers + ("    visual: " + visual + "\n"));
-}
-
-std::vector<std::string> notesOn(const std::string& text) {
-  std::vector<std::string> notes;
-  ScenarioSource source{"test.yaml", "test/data", {}};
-  source.note = [&notes](const std::string& note) { notes.push_back(note); };
-  parseScenario(treeOf(text, "test.yaml"), source);
-  return notes;
 }
 
 // A box of a x b x c: I_xx = m (b² + c²)/12.

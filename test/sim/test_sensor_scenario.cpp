@@ -176,12 +176,25 @@ TEST(SensorScenario, EveryRuleOfALaserToo) {
       {"range_max: 5", "range_max: 0", "s.range_max = 0: must be greater than 0"},
       {"range_max: 5", "latency: 60, range_max: 5", "nothing was thrown"},
       {"beams: 3", "latency: 60, beams: 20000",
-       "s.latency = 60: must be so short that at most 1000000 numbers are on their way"},
+       "s.latency = 60: must be so short that at most 600000 numbers are on their way"},
   };
   for (const auto& [from, to, message] : rules) {
     EXPECT_NE(changed(from, to).find(message), std::string::npos) << to << "\n"
                                                                   << changed(from, to);
   }
+}
+
+// Each may have 400,000 values on their way alone: (60 s 1000 Hz + 1) (3 + 3) = 360,006.
+TEST(SensorScenario, AllTogetherHaveABoundForWhatIsOnItsWay) {
+  const std::string compass = ": {kind: magnetometer, rate: 1000, latency: 60, field: [0, 0, 0]}\n";
+  const auto with_sensors = [&](const std::string& sensors) {
+    return testing::messageOf(
+        [&] { testing::scenarioOf(testing::sensedCraftYaml("    sensors:\n" + sensors)); });
+  };
+  EXPECT_EQ(with_sensors("      a" + compass), "nothing was thrown");
+  EXPECT_EQ(with_sensors("      a" + compass + "      b" + compass),
+            "test: vehicles.craft.sensors.b.latency = 60: must be so short that at most 500000 "
+            "numbers of all sensors are on their way");
 }
 
 TEST(SensorScenario, AKeyOfAnotherKindIsUnknown) {

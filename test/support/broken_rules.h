@@ -25,7 +25,7 @@ inline void PrintTo(const BrokenRule& rule, std::ostream* stream) {  // NOLINT: 
 inline const std::vector<BrokenRule> kBrokenKeys = {
     {"UnknownKey", "seed: 7", "sede: 7",
      "sede = 7: unknown key; known here: physics_version, step_size, integrator, orientation, "
-     "model, gravity, wind, seed, vehicles, world, ground"},
+     "model, gravity, wind, gusts, seed, vehicles, world, ground"},
     {"UnknownVehicleKey", "    mass: 5.5", "    weight: 5.5",
      "vehicles.alpha.weight = 5.5: unknown key; known here: mass, inertia, center_of_mass, parts, "
      "engines, actuators, drag, hull, material, visual, initial, cushion, sensors, tf"},
@@ -39,7 +39,7 @@ inline const std::vector<BrokenRule> kBrokenKeys = {
      "vehicles.alpha.inertia.izy = 0.03: unknown key; known here: ixx, iyy, izz, ixy, ixz, iyz"},
     {"UnknownDragKey", "{linear: [0.8", "{lineal: [0.8",
      "vehicles.alpha.drag.lineal = [0.8, 1.2, 1.6]: unknown key; known here: linear, quadratic, "
-     "angular_linear, angular_quadratic"},
+     "angular_linear, angular_quadratic, polar"},
     {"UnknownInitialKey", "rpy: [0.1", "yaw: [0.1",
      "vehicles.alpha.initial.yaw = [0.1, 0.2, 0.3]: unknown key; known here: position, rpy, "
      "velocity, angular_velocity"},

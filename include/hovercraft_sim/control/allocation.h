@@ -8,8 +8,8 @@
 
 namespace hovercraft {
 
-/// Most actuators of one allocation.
-constexpr std::size_t kMostActuators = 8;
+/// Most actuators of one allocation: three engines and eight others.
+constexpr std::size_t kMostActuators = 11;
 
 /// Which thrusts make a wrench. A wrench in the plane is (F_x, F_y, M_z) in B: N, N, N m.
 struct AllocationProblem {

@@ -2,10 +2,10 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "hovercraft_sim/control/allocation.h"
+#include "hovercraft_sim/control/plant_actuator.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -13,15 +13,7 @@ namespace hovercraft {
 
 /// What a velocity controller knows of its craft, in the plane.
 struct VelocityPlant {
-  struct Actuator {
-    std::string name;
-    double x = 0.0;  // m, from the centre of mass, in B
-    double y = 0.0;
-    double direction_x = 1.0;  // of positive thrust
-    double direction_y = 0.0;
-    double min_thrust = 0.0;  // N
-    double max_thrust = 0.0;  // N
-  };
+  using Actuator = PlantActuator;
 
   double mass = 0.0;         // kg
   double yaw_inertia = 0.0;  // kg m²
@@ -45,23 +37,18 @@ struct VelocityGains {
 /// @param thrust_lag s, the longest time constant of a thrust.
 HOVERCRAFT_PUBLIC VelocityGains velocityGainsOf(const VelocityPlant& plant, double thrust_lag);
 
-/// Velocities of base_link in its own axes: surge u and sway v, m/s; yaw rate r, rad/s.
-struct PlanarVelocity {
-  double u = 0.0;
-  double v = 0.0;
-  double r = 0.0;
-};
-
 /// Follows a commanded velocity: a reference that the thrusts can follow, feed-forward of its
 /// acceleration, of drag and of the turning axes, feedback on the error from the reference with an
 /// integral, allocation of the wrench to thrusts within limits. What the thrusts cannot make, the
-/// reference gives up: so the integral does not wind up.
+/// reference gives up: so the integral does not wind up. What an actuator can make depends on the
+/// motion and, of a rudder, on the thrust of its fan at the call before.
 class HOVERCRAFT_PUBLIC VelocityLaw {
  public:
   VelocityLaw(const VelocityPlant& plant, const VelocityGains& gains);
 
-  /// Thrusts of all actuators, N. @param dt s since the last call; 0 at the first one.
-  Thrusts thrusts(const PlanarVelocity& command, const PlanarVelocity& measured, double dt);
+  /// Levels of all actuators: N, or what their kinds say. @param dt s since the last call; 0 at the
+  /// first one.
+  Thrusts levels(const PlanarVelocity& command, const PlanarVelocity& measured, double dt);
 
   /// Forgets reference and integral: the next call starts from what is measured then.
   void reset() { is_started_ = false; }
@@ -76,11 +63,16 @@ class HOVERCRAFT_PUBLIC VelocityLaw {
 
  private:
   Vector3 drag(const Vector3& velocity) const;
+  AllocationProblem allocationAt(const PlanarVelocity& motion, const Thrusts& forces) const;
+  Thrusts greatestForces() const;
+  double balance(int axis, double sign, const Vector3& held) const;
 
   VelocityPlant plant_;
   VelocityGains gains_;
-  AllocationProblem allocation_;
-  Vector3 inertia_;  // kg, kg, kg m²
+  std::array<std::size_t, kMostActuators> fans_{};  // of each rudder, its index; else the own one
+  AllocationProblem allocation_;                    // at rest, every fan at its most
+  Thrusts forces_{};                                // N, of the call before
+  Vector3 inertia_;                                 // kg, kg, kg m²
   bool controls_sway_ = false;
   bool is_started_ = false;
   Vector3 reference_;  // m/s, m/s, rad/s

@@ -5,6 +5,9 @@
 
 namespace hovercraft {
 
+/// 15 °C at sea level, kg/m³.
+constexpr double kStandardAirDensity = 1.225;
+
 /// What surrounds a body during a step.
 struct Environment {
   Vector3 wind_W = Vector3::Zero();     // velocity of the air, m/s

@@ -8,12 +8,13 @@
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/hovercraft/actuator_array.h"
+#include "hovercraft_sim/hovercraft/drag_polar.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
-/// The forces of actuators besides the three engines. Each is a value that takes what holds at a
-/// stage of a step and gives a wrench about the centre of mass in B: + - * / and sqrt only, no
-/// memory. All places and directions are in B.
+/// The forces of actuators besides the three engines, and of a drag polar. Each is a value that
+/// takes what holds at a stage of a step and gives a wrench about the centre of mass in B: + - * /
+/// and sqrt only, no memory. All places and directions are in B.
 
 namespace hovercraft {
 
@@ -112,7 +113,14 @@ struct RudderForce {
   }
 };
 
-using Force = std::variant<FanForce, PropellerForce, RudderForce>;
+/// The drag of the hull by a polar.
+struct PolarForce {
+  DragPolar polar;
+
+  Wrench wrench(const ForceInputs& inputs) const { return polar.wrenchInBody(inputs.u_B); }
+};
+
+using Force = std::variant<FanForce, PropellerForce, RudderForce, PolarForce>;
 
 /// Their sum, in their order. Out of line, so that a craft without any keeps its registers.
 HOVERCRAFT_PUBLIC Wrench wrenchInBody(const std::vector<Force>& forces, const ForceInputs& inputs);

@@ -18,6 +18,7 @@ struct BodyTopics {
   const TopicSamples* pose = nullptr;
   const TopicSamples* twist = nullptr;
   const TopicSamples* engines = nullptr;
+  const TopicSamples* wind = nullptr;
 };
 
 /// The bodies of a bag: those of the scenario, if there is one; else every namespace with a state,
@@ -50,10 +51,11 @@ std::vector<RunObstacle> obstaclesOf(const hovercraft::Scenario& scenario);
 std::optional<RunGround> groundOf(const hovercraft::Scenario& scenario);
 
 /// From the states of a craft, by the trapezoidal rule over them; nothing if there are fewer than
-/// two. @param contacts_ns times of the contacts of the craft, in order.
-std::optional<EnergyLedger> ledgerOf(const TopicSamples& state,
+/// two. The wind is that of the topic `wind` where it was recorded with each state. @param
+/// mean_wind m/s, else. @param contacts_ns times of the contacts of the craft, in order.
+std::optional<EnergyLedger> ledgerOf(const BodyTopics& topics,
                                      const hovercraft::VehicleScenario& vehicle,
-                                     const hovercraft::Vector3& wind, std::int64_t zero_ns,
+                                     const hovercraft::Vector3& mean_wind, std::int64_t zero_ns,
                                      const std::vector<std::int64_t>& contacts_ns);
 
 }  // namespace hovercraft_ros

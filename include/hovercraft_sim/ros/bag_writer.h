@@ -25,7 +25,10 @@ namespace hovercraft_ros {
 class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
-  BagWriter(const std::string& path, const hovercraft::Scenario& scenario);
+  /// @param truth_odom topic of the true odometry; with another name than odom, the first odometry
+  /// sensor of each craft is on odom, as in the node.
+  BagWriter(const std::string& path, const hovercraft::Scenario& scenario,
+            const std::string& truth_odom = kOdomTopic);
 
   void state(const hovercraft::Simulation& simulation) override;
   void applied(const hovercraft::Command& command) override;
@@ -65,6 +68,7 @@ class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
   std::vector<VehicleMessages> vehicles_;
   std::vector<BodyMessages> bodies_;
   std::vector<SensorMessages> sensors_;  // of each vehicle
+  std::string truth_odom_;
   tf2_msgs::TFMessage transforms_;
 };
 

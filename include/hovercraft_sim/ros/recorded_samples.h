@@ -26,7 +26,8 @@ struct RecordedSample {
   std::uint64_t digest = 0;    // FNV-1a of the bytes
 };
 
-/// The messages of the scenario's sensors in a bag, by topic: .../VEHICLE/TOPIC. The first odometry
+/// The messages of the scenario's sensors in a bag, by topic: .../VEHICLE/TOPIC, and of
+/// several that fit the longest. The first odometry
 /// sensor's may also be on `odom`, where its frame tells it from the truth.
 /// @throws std::invalid_argument that names file, topic and time of a message that is damaged.
 HOVERCRAFT_PUBLIC std::vector<RecordedSample> readSamples(const std::string& path,

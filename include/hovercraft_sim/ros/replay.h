@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/recording_reader.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros {
@@ -55,8 +56,9 @@ HOVERCRAFT_PUBLIC ReplayResult replay(const Recording& recording,
 /// What the tool `replay` was asked for.
 struct ReplayRequest {
   std::string bag;
-  std::string output;             // a bag to write anew, or empty
-  std::vector<std::string> sets;  // KEY.PATH=VALUE: withOverrides()
+  std::string output;                   // a bag to write anew, or empty
+  std::vector<std::string> sets;        // KEY.PATH=VALUE: withOverrides()
+  std::string truth_odom = kOdomTopic;  // in the output, the topic of the true odometry
 };
 
 /// Replays a bag and says in one line what came of it.

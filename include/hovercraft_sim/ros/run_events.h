@@ -6,6 +6,7 @@
 #include <hovercraft_sim/ApplyWrench.h>
 #include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/SetState.h>
+#include <hovercraft_sim/SetWind.h>
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/tf_frames.h"
@@ -16,6 +17,10 @@
 /// recorded, and applied again by a replay through the same function.
 
 namespace hovercraft_ros {
+
+/// Kinds of events that change what `name` says; no constant of RunEvent, whose checksum is that of
+/// the recordings there are.
+constexpr std::uint8_t kSetWind = 5;
 
 /// @throws std::invalid_argument with the names there are if `name` is none of them.
 HOVERCRAFT_PUBLIC std::size_t vehicleIndex(const hovercraft::Scenario& scenario,
@@ -39,9 +44,18 @@ HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent applyWrenchEvent(
     const hovercraft::Scenario& scenario, const hovercraft_sim::ApplyWrench::Request& request,
     const TfFrames& frames, hovercraft::Tick tick);
 
+/// Whether an event of kind kSetWind says a wind.
+HOVERCRAFT_PUBLIC bool isWind(const hovercraft_sim::RunEvent& event);
+constexpr const char* kWindRuleText =
+    "wind: must be three numbers that are finite, and so must its speed";
+
+/// @throws std::invalid_argument if the wind or its speed is not finite.
+HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent setWindEvent(
+    const hovercraft_sim::SetWind::Request& request);
+
 /// Changes the simulation as the event says, at its current tick.
 /// @throws std::invalid_argument if a snapshot does not fit the scenario, a motion has momenta or
-/// an energy that are not finite, or an event is of no known kind.
+/// an energy that are not finite, a wind is none, or an event is of no known kind.
 HOVERCRAFT_PUBLIC void applyEvent(const hovercraft_sim::RunEvent& event,
                                   hovercraft::Simulation& simulation);
 

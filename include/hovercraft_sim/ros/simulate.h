@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/overrides.h"
 #include "hovercraft_sim/sim/run.h"
@@ -23,9 +24,11 @@ HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::CommandSource> openCommands(
     const std::string& path, const hovercraft::Scenario& scenario);
 
 /// A bag if the name ends in .bag; CSV if it ends in .csv or is `-` (the standard output).
+/// @param truth_odom of a bag, see BagWriter.
 /// @throws std::invalid_argument if it is neither, or cannot be opened for writing.
 HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::StateSink> openOutput(
-    const std::string& path, const hovercraft::Scenario& scenario);
+    const std::string& path, const hovercraft::Scenario& scenario,
+    const std::string& truth_odom = kOdomTopic);
 
 /// What the tool `simulate` was asked for.
 struct SimulateRequest {
@@ -33,14 +36,15 @@ struct SimulateRequest {
   std::vector<std::string> sets;    // KEY.PATH=VALUE: withOverrides()
   std::string commands;             // file; empty: nobody commands anything
   std::vector<std::string> pilots;  // files of manoeuvres, each for another craft
-  std::string duration;         // decimal seconds; empty: until kAfterLastCommandNs after the last
-  std::string output;           // as openOutput()
-  std::string contacts;         // CSV file of contacts; empty: none
-  std::string cushion;          // CSV file of the cells of cushions; empty: none
-  std::string sensors;          // folder of CSV files, one a sensor; empty: none
-  hovercraft::Tick every = 1;   // ticks from one output to the next
-  bool hold = false;            // commands hold for ever: every time-out is 0
-  bool shows_progress = false;  // a bar, while it runs
+  std::string duration;  // decimal seconds; empty: until kAfterLastCommandNs after the last
+  std::string output;    // as openOutput()
+  std::string contacts;  // CSV file of contacts; empty: none
+  std::string cushion;   // CSV file of the cells of cushions; empty: none
+  std::string sensors;   // folder of CSV files, one a sensor; empty: none
+  std::string truth_odom = kOdomTopic;  // in a bag, the topic of the true odometry
+  hovercraft::Tick every = 1;           // ticks from one output to the next
+  bool hold = false;                    // commands hold for ever: every time-out is 0
+  bool shows_progress = false;          // a bar, while it runs
 };
 constexpr std::int64_t kAfterLastCommandNs = 1000000000;
 

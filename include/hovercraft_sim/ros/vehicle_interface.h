@@ -89,6 +89,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   NewcomerPublisher<hovercraft_sim::EngineStatus> engines_;
   NewcomerPublisher<hovercraft_sim::ActuatorStatusArray> actuators_;
   NewcomerPublisher<hovercraft_sim::State> state_;
+  NewcomerPublisher<hovercraft_sim::Wind> wind_;
   NewcomerPublisher<hovercraft_sim::Cushion> cushion_;  // of a craft that has one
   ros::Publisher commands_;
   std::vector<ros::Subscriber> subscribers_;

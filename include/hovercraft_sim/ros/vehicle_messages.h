@@ -12,10 +12,12 @@
 #include <hovercraft_sim/Cushion.h>
 #include <hovercraft_sim/EngineStatus.h>
 #include <hovercraft_sim/State.h>
+#include <hovercraft_sim/Wind.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
 
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/tf_frames.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -28,10 +30,16 @@ constexpr const char* kTwistTopic = "twist";
 constexpr const char* kOdomTopic = "odom";
 constexpr const char* kEnginesTopic = "engines";
 constexpr const char* kCushionTopic = "cushion";
+constexpr const char* kWindTopic = "wind";
 constexpr const char* kActuatorsTopic = "actuators";
 constexpr const char* kActuatorCommandTopic = "actuator_command";
 constexpr const char* kStateTopic = "state";
 constexpr const char* kCommandsTopic = "commands";
+
+/// Whether the true odometry may be on it: a topic below the craft's namespace, truth/odom.
+HOVERCRAFT_PUBLIC bool isTopicOfCraft(const std::string& topic);
+constexpr const char* kTruthOdomRuleText =
+    "must be a topic below the craft's namespace, such as truth/odom";
 
 /// Simulated time as ROS time: epoch + n·h, from whole nanoseconds.
 HOVERCRAFT_PUBLIC ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);
@@ -75,6 +83,7 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   const hovercraft_sim::ActuatorStatusArray& actuators() const { return actuators_; }
   bool hasActuators() const { return !actuators_.actuators.empty(); }
   const hovercraft_sim::State& state() const { return state_; }
+  const hovercraft_sim::Wind& wind() const { return wind_; }
   bool hasCushion() const { return description_.cushion.has_value(); }
   /// Of a craft that has one.
   const hovercraft_sim::Cushion& cushion() const { return cushion_; }
@@ -82,6 +91,7 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
  private:
   void enter(std::uint32_t episode);
   void fillCushion(const hovercraft::Simulation& simulation);
+  void fillWind(const hovercraft::Simulation& simulation, const HullMotion& hull);
   void fillActuators(const hovercraft::Simulation& simulation);
 
   hovercraft::VehicleScenario description_;
@@ -96,6 +106,7 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   hovercraft_sim::EngineStatus engines_;
   hovercraft_sim::ActuatorStatusArray actuators_;
   hovercraft_sim::State state_;
+  hovercraft_sim::Wind wind_;
   hovercraft_sim::Cushion cushion_;
   hovercraft::CushionReport cushion_report_;
 };

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <geometry_msgs/Twist.h>
+#include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
@@ -31,9 +32,10 @@ parseVelocityNodeConfig(const hovercraft::ConfigNode& parameters, const std::str
 
 /// From `cmd_vel` (geometry_msgs/Twist: m/s, rad/s) and `odom` (nav_msgs/Odometry, twist of
 /// base_link in its own axes) to `thrust`: each odometry is answered by one ThrustCommand with its
-/// stamp, so that it works in lockstep. Time is that of the stamps. No command for `timeout` of it:
-/// thrusts 0, and likewise where that time goes back. A message with a number that is not finite,
-/// or beyond what any craft does (1,000 m/s or rad/s), is dropped and warned about.
+/// stamp, so that it works in lockstep; of a craft with other actuators than the three engines by
+/// one ActuatorCommand on `actuator_command`. Time is that of the stamps. No command for `timeout`
+/// of it: thrusts 0, and likewise where that time goes back. A message with a number that is not
+/// finite, or beyond what any craft does (1,000 m/s or rad/s), is dropped and warned about.
 class HOVERCRAFT_PUBLIC VelocityNode {
  public:
   VelocityNode(ros::NodeHandle& handle, const VelocityNodeConfig& config);
@@ -43,6 +45,8 @@ class HOVERCRAFT_PUBLIC VelocityNode {
  private:
   void take(const geometry_msgs::Twist& command);
   void answer(const nav_msgs::Odometry& odometry);
+  void answer(const ros::Time& stamp, const hovercraft::Thrusts& levels);
+  bool hasEnginesOnly() const;
   bool isDead(std::int64_t now_ns) const;
 
   VelocityNodeConfig config_;
@@ -51,9 +55,10 @@ class HOVERCRAFT_PUBLIC VelocityNode {
   std::optional<std::int64_t> last_ns_;       // stamp of the last odometry
   std::optional<std::int64_t> commanded_ns_;  // of that after which the last command came
   bool has_new_command_ = false;
-  hovercraft_sim::ThrustCommand answer_;  // the last one
+  hovercraft_sim::ThrustCommand thrusts_;   // the last answer, of a craft with engines only
+  hovercraft_sim::ActuatorCommand levels_;  // of all others
   WarningLimiter warnings_;
-  ros::Publisher thrust_;
+  ros::Publisher answers_;
   ros::Subscriber commands_;
   ros::Subscriber odometry_;
 };

@@ -39,13 +39,13 @@ class HOVERCRAFT_PUBLIC NoiseProcess {
   double variance() const;
 
  private:
-  Vector3 offset_;
-  double gain_;        // 1 + scale
-  double white_;       // u
-  double turn_on_;     // u
-  double decay_;       // of the bias in a period
-  double kick_;        // u, of the bias in a period
-  double stationary_;  // u; 0 of a random walk
+  Vector3 offset_ = Vector3::Zero();
+  double gain_ = 0.0;        // 1 + scale
+  double white_ = 0.0;       // u
+  double turn_on_ = 0.0;     // u
+  double decay_ = 0.0;       // of the bias in a period
+  double kick_ = 0.0;        // u, of the bias in a period
+  double stationary_ = 0.0;  // u; 0 of a random walk
   std::uint32_t stream_;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -15,9 +16,12 @@
 #include "hovercraft_sim/cushion/height_map.h"
 #include "hovercraft_sim/cushion/pads.h"
 #include "hovercraft_sim/hovercraft/drag.h"
+#include "hovercraft_sim/hovercraft/drag_polar.h"
 #include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/hovercraft/gusts.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sensors/sensor_parameters.h"
+#include "hovercraft_sim/sim/actuator_scenario.h"
 
 namespace hovercraft {
 
@@ -76,34 +80,6 @@ struct VisualScenario {
   Vector3 rpy = Vector3::Zero();    // rad
 };
 
-/// 15 °C at sea level, kg/m³.
-constexpr double kStandardAirDensity = 1.225;
-
-enum class ActuatorKind { kFan, kPropeller, kLiftFan, kRudder };
-
-/// An actuator besides the three engines. Its level is the thrust at rest in N of a fan, the speed
-/// in 1/s of a propeller, the speed as a share of the nominal one of a lift fan, the angle in rad
-/// of a rudder. `motion` has limits, lag and time-out of the level; place and direction are those
-/// of positive thrust, of a rudder the direction of its fan's thrust.
-struct ActuatorScenario {
-  std::string name;
-  ActuatorKind kind = ActuatorKind::kFan;
-  EngineParameters motion;
-  double initial = 0.0;     // level, until the first command
-  double free_speed = 0.0;  // m/s, of a fan: at which its thrust is 0; 0: it does not fall
-  double air_density = kStandardAirDensity;  // kg/m³
-  double diameter = 0.0;  // m, of a propeller; of a rudder that of its fan's disc
-  double turn = 1.0;      // of a propeller: 1 or -1, right- or left-handed about its thrust
-  Vector3 thrust_coefficients = Vector3::Zero();  // of a propeller: k0, k1, k2
-  Vector3 torque_coefficients = Vector3::Zero();  // q0, q1, q2
-  std::string fan;                                // of a rudder: in whose slipstream; empty: none
-  Vector3 hinge = Vector3::UnitZ();               // unit, in B
-  double area = 0.0;                              // m²
-  double lift_slope = 0.0;                        // 1/rad
-  double drag_at_rest = 0.0;
-  double drag_growth = 0.0;  // 1/rad²
-};
-
 /// One craft. Parts and engines are placed in the hull frame H (base_link); the initial motion is
 /// that of the body frame B at the centre of mass, in W.
 struct VehicleScenario {
@@ -114,6 +90,7 @@ struct VehicleScenario {
   std::array<bool, kEngineCount> has_engine = {true, true, true};  // else its limits are 0
   std::vector<ActuatorScenario> actuators;                         // by name; ids from 3 on
   Drag drag;
+  std::optional<DragPolar> polar;  // besides it
   std::optional<CushionParameters> cushion;
   std::optional<HullScenario>
       hull;  // none: the convex hull of the parts, in a scenario with a world or a ground
@@ -135,13 +112,12 @@ struct PlaneScenario {
 
 /// Heights as the pixels of an image, named as in the YAML of map_server.
 struct HeightMapScenario {
-  std::string image;        // all bytes of a PGM or PNG file
-  double resolution = 0.0;  // m, edge of a pixel
-  double x = 0.0;           // m, of the lower left corner of the image
-  double y = 0.0;
-  double z_min = 0.0;  // m, of a pixel of value 0
-  double z_max = 0.0;  // m, of a pixel of the greatest value
-  HeightGrid grid;     // as read
+  std::string image;                               // all bytes of a PGM or PNG file
+  double resolution = 0.0;                         // m, edge of a pixel
+  double x = 0.0, y = 0.0;                         // m, of the lower left corner of the image
+  double z_min = 0.0;                              // m, of a pixel of value 0
+  double z_max = 0.0;                              // m, of a pixel of the greatest value
+  std::shared_ptr<const HeightMapGround> surface;  // as read: one for all that ask it
 };
 
 /// Ground besides the obstacles of a world.
@@ -188,7 +164,8 @@ struct Scenario {
   OrientationKind orientation = OrientationKind::kQuaternion;
   BodyModel model = BodyModel::kPlanar;
   Vector3 gravity = Vector3::Zero();  // m/s², in W
-  Vector3 wind = Vector3::Zero();     // m/s, in W
+  Vector3 wind = Vector3::Zero();     // m/s, in W: the mean
+  std::optional<GustParameters> gusts;
   std::int64_t seed = 1;
   std::vector<VehicleScenario> vehicles;  // in the order of their names
   std::optional<WorldScenario> world;     // none: craft pass through each other

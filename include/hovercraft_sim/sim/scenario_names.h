@@ -14,6 +14,8 @@ HOVERCRAFT_PUBLIC const std::vector<std::string>& orientationNames();
 HOVERCRAFT_PUBLIC const std::vector<std::string>& modelNames();
 /// The words for the kinds of actuators, in the order of ActuatorKind.
 HOVERCRAFT_PUBLIC const std::vector<std::string>& actuatorKindNames();
+/// Those of GustModel.
+HOVERCRAFT_PUBLIC const std::vector<std::string>& gustModelNames();
 /// Those of TfSource and of SensorKind.
 HOVERCRAFT_PUBLIC const std::vector<std::string>& tfSourceNames();
 HOVERCRAFT_PUBLIC const std::vector<std::string>& sensorKindNames();

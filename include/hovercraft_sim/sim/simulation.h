@@ -5,83 +5,20 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "hovercraft_sim/body/body_state.h"
-#include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sensors/sensor_suite.h"
-#include "hovercraft_sim/sim/command_log.h"
+#include "hovercraft_sim/sim/actuator_forces.h"
 #include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/sim/simulation_state.h"
 #include "hovercraft_sim/world/world.h"
 
 namespace hovercraft {
 
-/// A wrench that acts on one craft for some steps, besides engines, drag and weight.
-struct ExternalWrench {
-  enum class Frame { kWorld, kBody };
-
-  std::size_t vehicle = 0;
-  Frame frame = Frame::kWorld;
-  Wrench wrench;      // N and N m about the centre of mass
-  Tick end_tick = 0;  // it acts in the steps that begin before this tick
-};
-
-/// Everything that determines the future of a run, besides the scenario and what is still to be
-/// pushed.
-struct SimulationState {
-  Tick tick = 0;
-  std::int64_t seed = 1;
-  std::vector<BodyState> bodies;         // vehicles, then loose ones, in the scenario's order
-  std::vector<EngineStates> engines;     // of each vehicle
-  std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
-  std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
-  std::vector<SensorState> sensors;      // of all craft, in the order of the scenario
-  CommandLog commands;                   // that have not taken effect
-};
-
-/// A contact as it is reported: once, in the step in which it happened.
-struct ContactEvent {
-  ContactKind kind = ContactKind::kBounce;
-  std::int64_t time_ns = 0;  // of the impact, to the nearest ns
-  double time = 0.0;         // s
-  Tick tick = 0;             // at the end of the step
-  std::string_view a;        // names, as long as the simulation lives
-  std::string_view b;
-  Vector3 p_WC;         // m
-  Vector3 nhat_AB_W;    // unit
-  Vector3 impulse_B_W;  // N s, on b
-};
-
-/// Motion of one craft as it is reported; W world, B at the centre of mass.
-struct Motion {
-  Vector3 p_WB;                // m
-  Quaternion q_WB;             // B -> W
-  Twist twist;                 // in W
-  Vector3 momentum_W;          // kg m/s
-  Vector3 angular_momentum_W;  // kg m²/s
-  double energy;  // J: kinetic, and potential in the field of gravity (0 at the origin of W)
-};
-
-/// One engine as it is reported.
-struct EngineReport {
-  double commanded;  // N, as received
-  double applied;    // N, after limits, time-out and lag
-  bool saturated;
-  bool timed_out;
-  double command_age;  // s of simulated time; -1 before the first command
-};
-
-/// The cushion of a craft as it is reported.
-struct CushionReport {
-  std::vector<CellReport> cells;   // in the order of the scenario
-  std::vector<double> fan_speeds;  // of each fan, shares of their nominal speeds
-  double power = 0.0;              // W, that the fans put into the air
-};
+class StateHash;
 
 /// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
 /// allocation in step(); the same scenario and the same commands at the same ticks give the same
@@ -114,6 +51,13 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// Adds a wrench from the current tick until its end tick.
   void applyWrench(const ExternalWrench& wrench);
 
+  /// Another mean wind from the current tick on; gusts go on, along and across the new one.
+  /// @param wind_W m/s, finite.
+  void setWind(const Vector3& wind_W);
+  /// The wind at a body in the step that begins now, gusts included, m/s in W. @param body vehicles
+  /// first, then loose ones.
+  Vector3 windAt(std::size_t body) const { return inputs_[body].environment.wind_W; }
+
   /// Back to the scenario's start at tick 0: no command, no wrench is left. @param seed of the new
   /// run.
   void reset(std::int64_t seed);
@@ -144,8 +88,7 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// The cushion of a craft as it is now; no cells without one. @param report replaced.
   void cushionReport(std::size_t vehicle, CushionReport& report) const;
 
-  /// Hash of everything that determines the future of one craft, or of all: FNV-1a, 64 bits,
-  /// defined in ARCHITECTURE.md.
+  /// Hash of what determines the future of one craft, or of all: FNV-1a, 64 bits (ARCHITECTURE.md).
   std::uint64_t hash(std::size_t vehicle) const;
   std::uint64_t hash() const;
 
@@ -170,9 +113,12 @@ class HOVERCRAFT_PUBLIC Simulation {
  private:
   void applyDueCommands();
   void endWrenches();
-  void turnFans(const Cushion& cushion, FanSpeedCourse& course) const;
+  void turnFans(std::size_t vehicle);
   void prepareInputs();
   void takeResult();
+  void refreshWind();
+  void blow();
+  void addAir(StateHash& hash, std::size_t first, std::size_t last) const;
   void readSensors();
   [[noreturn]] void failAsDiverged(std::size_t body) const;
   void sortRecords();
@@ -186,10 +132,11 @@ class HOVERCRAFT_PUBLIC Simulation {
 
   Scenario scenario_;
   World world_;
-  std::shared_ptr<const Ground> ground_;         // what cushions blow on; none
-  std::shared_ptr<const Ground> bare_ground_;    // what pads stand on; none
-  Environment environment_;                      // of every body
-  std::vector<EngineDynamics> engine_dynamics_;  // of each vehicle
+  std::shared_ptr<const Ground> ground_;       // what cushions blow on; none
+  std::shared_ptr<const Ground> bare_ground_;  // what pads stand on; none
+  std::optional<Gusts> gusts_;
+  std::vector<EngineDynamics> engine_dynamics_;    // of each vehicle
+  std::vector<std::vector<FanDrive>> fan_drives_;  // likewise
   SimulationState state_;
   std::vector<StepInputs> inputs_;  // of each body, in the step that is made
   std::optional<SensorSuite> sensors_;

@@ -22,7 +22,8 @@ HOVERCRAFT_PUBLIC SimulationState parseSnapshot(const std::string& text, const s
                                                 const Scenario& scenario);
 
 /// The same through a file; an existing one is replaced only when the new one is whole.
-/// @throws std::invalid_argument if it cannot be written.
+/// @throws std::invalid_argument if it cannot be written, or is longer than readSnapshotText()
+/// takes.
 HOVERCRAFT_PUBLIC void saveSnapshot(const Simulation& simulation, const std::string& path);
 /// The text of a snapshot's file, for parseSnapshot(). @throws std::invalid_argument if it cannot
 /// be read.

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/hovercraft/environment.h"
+#include "hovercraft_sim/math/vector.h"
+
+namespace hovercraft {
+
+enum class ActuatorKind { kFan, kPropeller, kLiftFan, kRudder };
+
+/// An actuator besides the three engines. Its level is the thrust at rest in N of a fan, the speed
+/// in 1/s of a propeller, the speed as a share of the nominal one of a lift fan, the angle in rad
+/// of a rudder. `motion` has limits, lag and time-out of the level; place and direction are those
+/// of positive thrust, of a rudder the direction of its fan's thrust.
+struct ActuatorScenario {
+  std::string name;
+  ActuatorKind kind = ActuatorKind::kFan;
+  EngineParameters motion;
+  double initial = 0.0;     // level, until the first command
+  double free_speed = 0.0;  // m/s, of a fan: at which its thrust is 0; 0: it does not fall
+  double air_density = kStandardAirDensity;  // kg/m³
+  double diameter = 0.0;  // m, of a propeller; of a rudder that of its fan's disc
+  double turn = 1.0;      // of a propeller: 1 or -1, right- or left-handed about its thrust
+  Vector3 thrust_coefficients = Vector3::Zero();  // of a propeller: k0, k1, k2
+  Vector3 torque_coefficients = Vector3::Zero();  // q0, q1, q2
+  std::string fan;                                // of a rudder: in whose slipstream; empty: none
+  Vector3 hinge = Vector3::UnitZ();               // unit, in B
+  double area = 0.0;                              // m²
+  double lift_slope = 0.0;                        // 1/rad
+  double drag_at_rest = 0.0;
+  double drag_growth = 0.0;  // 1/rad²
+};
+
+}  // namespace hovercraft
