@@ -89,7 +89,9 @@ Vector3 dragOf(const hovercraft::VehicleScenario& craft, const Vector3& wind,
   const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::Matrix3 R_WB = hovercraft::rotationMatrix(fromMessage(state.pose.orientation));
   const Vector3 u_B = hovercraft::transposeTimes(R_WB, fromMessage(state.velocity) - wind);
-  return hovercraft::times(R_WB, craft.drag.wrenchInBody(u_B, Vector3::Zero()).force);
+  Vector3 force_B = craft.drag.wrenchInBody(u_B, Vector3::Zero()).force;
+  if (craft.polar) force_B += craft.polar->wrenchInBody(u_B).force;
+  return hovercraft::times(R_WB, force_B);
 }
 
 std::optional<Vector3> resultantOf(const CraftMotion& motion) {
@@ -100,9 +102,10 @@ std::optional<Vector3> resultantOf(const CraftMotion& motion) {
   return (1.0 / dt) * (fromMessage(motion.state.momentum) - fromMessage(motion.before->momentum));
 }
 
-std::vector<Marker> forceMarkers(const hovercraft::VehicleScenario& craft, const Vector3& wind,
-                                 const CraftMotion& motion) {
+std::vector<Marker> forceMarkers(const hovercraft::VehicleScenario& craft,
+                                 const Vector3& steady_wind, const CraftMotion& motion) {
   const std::string& frame = motion.state.header.frame_id;
+  const Vector3 wind = motion.wind.value_or(steady_wind);
   const Vector3 p_WB = fromMessage(motion.state.pose.position);
   const Vector3 from = p_WB + Vector3(0.0, 0.0, kForceHeight);
   const double metres = kArrowOfFullThrust / fullForce(craft);

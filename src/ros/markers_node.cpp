@@ -4,6 +4,7 @@
 #include <exception>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <hovercraft_sim/Wind.h>
 #include <ros/console.h>
 
 #include "hovercraft_sim/math/quaternion.h"
@@ -101,6 +102,12 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
       own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kDisplayQueue, on_pose),
       own.subscribe<hovercraft_sim::State>(kStateTopic, kDisplayQueue, on_state),
       own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kDisplayQueue, on_engines)};
+  const boost::function<void(const hovercraft_sim::Wind&)> on_wind =
+      [craft](const hovercraft_sim::Wind& wind) {
+        craft->motion.wind = fromMessage(wind.true_wind);
+      };
+  craft->subscribers.push_back(
+      own.subscribe<hovercraft_sim::Wind>(kWindTopic, kDisplayQueue, on_wind));
   if (!description.cushion) return;
   const boost::function<void(const hovercraft_sim::Cushion&)> on_cushion =
       [craft](const hovercraft_sim::Cushion& cushion) { craft->cushion = cushion; };

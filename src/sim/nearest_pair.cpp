@@ -35,29 +35,35 @@ void NearestPairFinder::add(const std::string& name, ConvexPolyhedron hull, cons
 
 std::optional<NearestPair> NearestPairFinder::find(const std::vector<std::optional<Pose>>& X_WH) {
   const FloatingPointEnvironment environment;
-  const auto pose_of = [&](std::size_t i) -> std::optional<Pose> {
-    if (i >= moving_.size()) return Pose();
-    if (i >= X_WH.size() || !X_WH[i]) return std::nullopt;
-    return Pose{X_WH[i]->R_AB, transform(*X_WH[i], solids_[i].p_HB)};
-  };
   std::optional<NearestPair> nearest;
   for (std::size_t a = 0; a < moving_.size(); ++a) {
-    const auto X_WA = pose_of(a);
+    const auto X_WA = poseOf(a, X_WH);
     for (std::size_t b = a + 1; X_WA && b < solids_.size(); ++b) {
-      const auto X_WB = pose_of(b);
-      if (!X_WB) continue;
-      const double gap =
-          norm(transform(*X_WA, solids_[a].center) - transform(*X_WB, solids_[b].center)) -
-          solids_[a].radius - solids_[b].radius;
-      if (nearest && gap > nearest->distance) continue;
-      const ClosestFeatures closest = closestFeatures(solids_[a].hull, *X_WA, solids_[b].hull,
-                                                      *X_WB, pairs_[a * solids_.size() + b]);
-      if (closest.status == Proximity::kStepLimit) continue;
-      if (nearest && closest.distance >= nearest->distance) continue;
-      nearest = {solids_[a].name, solids_[b].name, closest.distance, closest.p_WCa, closest.p_WCb};
+      const auto X_WB = poseOf(b, X_WH);
+      if (X_WB) compare(a, *X_WA, b, *X_WB, nearest);
     }
   }
   return nearest;
+}
+
+std::optional<Pose> NearestPairFinder::poseOf(std::size_t solid,
+                                              const std::vector<std::optional<Pose>>& X_WH) const {
+  if (solid >= moving_.size()) return Pose();
+  if (solid >= X_WH.size() || !X_WH[solid]) return std::nullopt;
+  return Pose{X_WH[solid]->R_AB, transform(*X_WH[solid], solids_[solid].p_HB)};
+}
+
+void NearestPairFinder::compare(std::size_t a, const Pose& X_WA, std::size_t b, const Pose& X_WB,
+                                std::optional<NearestPair>& nearest) {
+  const Solid& A = solids_[a];
+  const Solid& B = solids_[b];
+  const double apart = norm(transform(X_WA, A.center) - transform(X_WB, B.center));
+  if (nearest && apart - A.radius - B.radius > nearest->distance) return;
+  const ClosestFeatures closest =
+      closestFeatures(A.hull, X_WA, B.hull, X_WB, pairs_[a * solids_.size() + b]);
+  if (closest.status == Proximity::kStepLimit) return;
+  if (nearest && closest.distance >= nearest->distance) return;
+  nearest = {A.name, B.name, closest.distance, closest.p_WCa, closest.p_WCb};
 }
 
 }  // namespace hovercraft

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,26 +38,33 @@ TEST(Excitation, ARampIsAStraightLine) {
   EXPECT_EQ(levelAt(ramp, 5.0), 3.0);
 }
 
+/// A period of a sequence, as ±1.
+std::vector<int> signsOf(int order) {
+  std::vector<int> signs(static_cast<std::size_t>((1 << order) - 1));
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    signs[i] = maximumLengthBit(order, static_cast<std::int64_t>(i)) ? 1 : -1;
+  }
+  return signs;
+}
+
+int autocorrelation(const std::vector<int>& signs, std::size_t shift) {
+  int sum = 0;
+  for (std::size_t i = 0; i < signs.size(); ++i)
+    sum += signs[i] * signs[(i + shift) % signs.size()];
+  return sum;
+}
+
 TEST(Excitation, PrbsOfEveryOrderIsOfMaximumLength) {
   // Golomb's postulates: one more 1 than 0 in a period, and the autocorrelation of ±1 is -1 for
   // every shift but 0, which no shorter period has.
   for (int order = kLeastPrbsOrder; order <= kMostPrbsOrder; ++order) {
-    const int length = (1 << order) - 1;
-    std::vector<int> bits;
-    for (int i = 0; i < length; ++i) bits.push_back(maximumLengthBit(order, i) ? 1 : -1);
-    int sum = 0;
-    for (const int bit : bits) sum += bit;
-    EXPECT_EQ(sum, 1) << order;
+    const std::vector<int> signs = signsOf(order);
+    EXPECT_EQ(std::accumulate(signs.begin(), signs.end(), 0), 1) << order;
     // All shifts of the short ones, some of the long ones.
-    for (int shift = 1; shift < length; shift += order < 9 ? 1 : 97) {
-      int product = 0;
-      for (int i = 0; i < length; ++i) {
-        product += bits[static_cast<std::size_t>(i)] *
-                   bits[static_cast<std::size_t>((i + shift) % length)];
-      }
-      ASSERT_EQ(product, -1) << "order " << order << ", shift " << shift;
+    for (std::size_t shift = 1; shift < signs.size(); shift += order < 9 ? 1 : 97) {
+      ASSERT_EQ(autocorrelation(signs, shift), -1) << "order " << order << ", shift " << shift;
     }
-    EXPECT_EQ(maximumLengthBit(order, length), maximumLengthBit(order, 0));
+    EXPECT_EQ(maximumLengthBit(order, static_cast<std::int64_t>(signs.size())), signs[0] == 1);
   }
 }
 

@@ -53,6 +53,15 @@ TEST(DetailMarkers, DragActsAgainstTheWayThroughTheAir) {
   EXPECT_NEAR((windy - Vector3(5.0, -3.0, 0.0)).norm(), 0.0, 1e-12);
 }
 
+TEST(DetailMarkers, TheWindOfGustsCountsWhereItIsKnown) {
+  CraftMotion motion;
+  motion.state = stateAlongY();
+  motion.wind = Vector3(0.0, 1.0, 0.0);
+  const std::vector<Marker> markers = forceMarkers(dragged(), {0.5, 0.0, 0.0}, motion);
+  EXPECT_NEAR((along(markers[0]) - 0.2 * Vector3(0.0, -3.0, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_EQ(markers[3].text, "wind 1 m/s");
+}
+
 TEST(DetailMarkers, TheResultantIsTheChangeOfMomentum) {
   CraftMotion motion;
   motion.state = stateAlongY();

@@ -20,9 +20,10 @@ namespace hovercraft_ros {
 struct CraftMotion {
   hovercraft_sim::State state;
   std::optional<hovercraft_sim::State> before;  // of the same episode
+  std::optional<hovercraft::Vector3> wind;      // m/s, in W, gusts included; none: not known
 };
 
-/// The force that a craft's drag exerts, N, in W. @param wind m/s, in W.
+/// The force that a craft's drag exerts, its polar included, N, in W. @param wind m/s, in W.
 HOVERCRAFT_PUBLIC hovercraft::Vector3 dragOf(const hovercraft::VehicleScenario& craft,
                                              const hovercraft::Vector3& wind,
                                              const hovercraft_sim::State& state);
@@ -34,8 +35,9 @@ HOVERCRAFT_PUBLIC std::optional<hovercraft::Vector3> resultantOf(const CraftMoti
 /// Arrows 0.3 m above the centre of mass: `NAME/drag`, `NAME/resultant`, as long as those of
 /// thrusts: 0.8 m for the greatest thrust of an engine (of a craft without, for its mass times 1
 /// m/s²), at most 4 m. `NAME/wind`: 0.2 m for 1 m/s, with its speed as text. What is 0 is deleted.
+/// @param steady_wind m/s, in W, where that of the motion is not known.
 HOVERCRAFT_PUBLIC std::vector<visualization_msgs::Marker> forceMarkers(
-    const hovercraft::VehicleScenario& craft, const hovercraft::Vector3& wind,
+    const hovercraft::VehicleScenario& craft, const hovercraft::Vector3& steady_wind,
     const CraftMotion& motion);
 
 /// `contacts`: 0.3 m above each contact an arrow along the impulse on b, 0.3 m for 1 N s (0.1 to 2

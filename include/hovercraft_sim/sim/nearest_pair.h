@@ -44,6 +44,11 @@ class HOVERCRAFT_PUBLIC NearestPairFinder {
     double radius = 0.0;
   };
 
+  /// Of the body frame.
+  std::optional<Pose> poseOf(std::size_t solid, const std::vector<std::optional<Pose>>& X_WH) const;
+  /// Takes the pair if it is nearer than the nearest one.
+  void compare(std::size_t a, const Pose& X_WA, std::size_t b, const Pose& X_WB,
+               std::optional<NearestPair>& nearest);
   void add(const std::string& name, ConvexPolyhedron hull, const Vector3& p_HB);
 
   std::vector<std::string> moving_;
