@@ -307,31 +307,39 @@ void addGusts(const Scenario& scenario, NoiseStreams& streams) {
   }
 }
 
+/// What the sensors of all craft share.
+struct SharedBounds {
+  NoiseStreams streams;
+  double on_their_way = 0.0;
+};
+
+void addSensor(const ConfigReader& reader, const std::string& vehicle,
+               const SensorParameters& sensor, std::int64_t step_ns, SharedBounds& shared) {
+  shared.on_their_way += numbersOnTheirWay(sensor, step_ns);
+  if (shared.on_their_way > kMostOnTheirWay) {
+    reader.fail("latency", fmt::format("must be so short that at most {:.0f} numbers of all "
+                                       "sensors are on their way",
+                                       kMostOnTheirWay));
+  }
+  try {
+    for (const std::string& channel : channelNames(vehicle, sensor)) shared.streams.add(channel);
+  } catch (const std::invalid_argument& error) {
+    reader.fail("", error.what());
+  }
+}
+
 }  // namespace
 
 void parseSensors(const ConfigReader& top, Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
-  NoiseStreams streams;
-  addGusts(scenario, streams);
-  double on_their_way = 0.0;
+  SharedBounds shared;
+  addGusts(scenario, shared.streams);
   for (VehicleScenario& vehicle : scenario.vehicles) {
     const ConfigReader reader = vehicles.map(vehicle.name);
     if (reader.has("sensors")) {
       for (const auto& [name, sensor] : reader.map("sensors").maps()) {
         vehicle.sensors.push_back(parseSensor(name, sensor, {scenario}));
-        on_their_way += numbersOnTheirWay(vehicle.sensors.back(), scenario.step_ns);
-        if (on_their_way > kMostOnTheirWay) {
-          sensor.fail("latency", fmt::format("must be so short that at most {:.0f} numbers of all "
-                                             "sensors are on their way",
-                                             kMostOnTheirWay));
-        }
-        try {
-          for (const std::string& channel : channelNames(vehicle.name, vehicle.sensors.back())) {
-            streams.add(channel);
-          }
-        } catch (const std::invalid_argument& error) {
-          sensor.fail("", error.what());
-        }
+        addSensor(sensor, vehicle.name, vehicle.sensors.back(), scenario.step_ns, shared);
       }
     }
     parseTf(reader, vehicle);
