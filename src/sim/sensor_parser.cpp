@@ -295,15 +295,15 @@ std::string sensorText(const SensorParameters& sensor) {
   return text + std::visit(ModelWriter(), sensor.model) + "}\n";
 }
 
-}  // namespace
-
-namespace {
-
 /// Sensors have other noise than the gusts, too.
-void addGusts(const Scenario& scenario, NoiseStreams& streams) {
+void addGusts(const ConfigReader& top, const Scenario& scenario, NoiseStreams& streams) {
   if (!scenario.gusts) return;
-  for (const std::string& body : bodyNames(scenario)) {
-    for (const std::string& channel : Gusts::channelsOf(body)) streams.add(channel);
+  try {
+    for (const std::string& body : bodyNames(scenario)) {
+      for (const std::string& channel : Gusts::channelsOf(body)) streams.add(channel);
+    }
+  } catch (const std::invalid_argument& error) {
+    top.map("gusts").fail("", error.what());
   }
 }
 
@@ -333,7 +333,7 @@ void addSensor(const ConfigReader& reader, const std::string& vehicle,
 void parseSensors(const ConfigReader& top, Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
   SharedBounds shared;
-  addGusts(scenario, shared.streams);
+  addGusts(top, scenario, shared.streams);
   for (VehicleScenario& vehicle : scenario.vehicles) {
     const ConfigReader reader = vehicles.map(vehicle.name);
     if (reader.has("sensors")) {
