@@ -1,6 +1,7 @@
 /// Time of one step of a craft on its cushion, at 1 kHz, against the same craft without: rc5 as one
-/// cell and as four cells, with 8 and 16 points of hem, over a plane and over a floor of the world,
-/// at 0.2, 2 and 10 m/s. Without a cushion it flies at the same speeds where nothing pulls it down.
+/// cell (with and without the stiffness of its skirt) and as four cells, with 8 and 16 points of
+/// hem, over a plane and over a floor of the world, at 0.2, 2 and 10 m/s. Without a cushion it
+/// flies at the same speeds and height where nothing pulls it down.
 
 #include <benchmark/benchmark.h>
 #include <string>
@@ -14,7 +15,7 @@ namespace {
 
 struct Case {
   std::string integrator;
-  std::string cushion;  // none, one_cell, four_cells_8, four_cells_16
+  std::string cushion;  // none, one_cell, one_cell_bare, four_cells_8, four_cells_16, ..._bare
   std::string ground;   // plane, floor
   double speed;         // m/s
 };
@@ -27,15 +28,15 @@ std::vector<std::string> setsOf(const Case& which) {
       vehicle + "initial.velocity=[" + std::to_string(which.speed) + ", 0, 0]"};
   if (which.ground == "floor") {
     sets.emplace_back(
-        "world={obstacles: {floor: {box: {size: [1e6, 100, 1]}, position: [0, 0, "
+        "world={obstacles: {floor: {box: {size: [1e5, 100, 1]}, position: [0, 0, "
         "-0.5]}}}");
   }
-  if (which.cushion == "one_cell") {
+  if (which.cushion.rfind("one_cell", 0) == 0) {
     sets.push_back(vehicle + "cushion.rectangle.columns=1");
     sets.push_back(vehicle + "cushion.rectangle.rows=1");
     sets.push_back(vehicle + "cushion.fans.lift.curve=108581.25");  // a sixteenth
   }
-  if (which.cushion == "four_cells_16") {
+  if (which.cushion.rfind("four_cells_16", 0) == 0) {
     sets.push_back(vehicle + "cushion.rectangle.points_per_side=2");
   }
   return sets;
@@ -44,6 +45,10 @@ std::vector<std::string> setsOf(const Case& which) {
 Scenario scenarioOf(const Case& which) {
   Scenario scenario = loadScenario("config/rc5.yaml", {}, {"--set", setsOf(which)});
   if (which.ground == "floor") scenario.ground.reset();
+  // Refused in a scenario for one cell: it cannot be held level. In the bench nothing tilts it.
+  if (which.cushion.find("bare") != std::string::npos) {
+    scenario.vehicles[0].cushion->skirt.stiffness = 0.0;
+  }
   if (which.cushion == "none") {
     scenario.vehicles[0].cushion.reset();
     scenario.ground.reset();
@@ -64,7 +69,8 @@ void registerAll() {
   for (const std::string integrator : {"heun", "rk4"}) {
     for (const std::string ground : {"plane", "floor"}) {
       for (const double speed : {0.2, 2.0, 10.0}) {
-        for (const std::string cushion : {"none", "one_cell", "four_cells_8", "four_cells_16"}) {
+        for (const std::string cushion : {"none", "one_cell", "one_cell_bare", "four_cells_8",
+                                          "four_cells_16", "four_cells_16_bare"}) {
           std::string name = integrator;
           name.append("/").append(ground).append("/").append(cushion).append("/").append(
               std::to_string(speed).substr(0, 4));

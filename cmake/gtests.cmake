@@ -1,4 +1,4 @@
-# gtest programs, each run as one test or as several.
+# gtest programs, each run as one test or as several. The target `gtests` builds them all, and what they run.
 
 # hovercraft_add_gtest(MODULE SOURCE...): the program hovercraft_sim_test_MODULE, run in the root of the checkout. With parts_of_MODULE set,
 # each of as many runs does its share of the tests (gtest's shards), beside the others where ctest may.
@@ -14,6 +14,10 @@ function(hovercraft_add_gtest module)
   endif()
   target_link_libraries(${target} ${PROJECT_NAME}_test_core)
   hovercraft_unity(${target} tests ${ARGN})
+  if(NOT TARGET gtests)
+    add_custom_target(gtests)
+  endif()
+  add_dependencies(gtests ${target})
   if(parts_of_${module})
     add_dependencies(tests ${target})
     math(EXPR last "${parts_of_${module}} - 1")

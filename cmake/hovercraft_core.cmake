@@ -45,7 +45,7 @@ include_directories(SYSTEM ${EIGEN3_INCLUDE_DIRS} ${qhull_include_dir})
 # Every module up to sim.
 get_filename_component(hovercraft_root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 set(hovercraft_core_sources)
-foreach(module math geometry body cushion hovercraft collision contact control sensors world sim)
+foreach(module math geometry body cushion hovercraft collision contact control pilot sensors world sim)
   file(GLOB module_sources CONFIGURE_DEPENDS ${hovercraft_root}/src/${module}/*.cpp)
   set(sources_of_${module} ${module_sources})
   list(APPEND hovercraft_core_sources ${module_sources})
@@ -72,7 +72,11 @@ function(hovercraft_shared_library name)
   set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
 endfunction()
 
+# A square root that need not set errno is one instruction, and may be taken of several numbers at once: the same numbers, in 0.6 of the time
+# of a cushion.
+set_source_files_properties(${hovercraft_root}/src/cushion/cushion.cpp PROPERTIES COMPILE_OPTIONS -fno-math-errno)
+
 hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt PNG::PNG ${qhull_library})
-foreach(module math geometry body cushion hovercraft collision contact control sensors world sim)
+foreach(module math geometry body cushion hovercraft collision contact control pilot sensors world sim)
   hovercraft_unity(hovercraft_core_objects ${module} ${sources_of_${module}})
 endforeach()

@@ -76,7 +76,7 @@ packages_for() {
 packages_of_debian() {
   case "$1" in
     build) echo catkin ros-message-generation libdiagnostic-updater-dev \
-      libbz2-dev libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libnav-msgs-dev \
+      libbz2-dev libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libgeometry-msgs-dev libinteractive-markers-dev libnav-msgs-dev \
       librosbag-dev libroscpp-dev libroslib-dev libros-rosgraph-msgs-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-msgs-dev \
       libtf2-ros-dev libvisualization-msgs-dev ros-geometry-msgs ros-std-msgs ros-std-srvs \
       python3-diagnostic-msgs python3-geometry-msgs python3-nav-msgs python3-sensor-msgs python3-std-msgs python3-std-srvs \
@@ -92,7 +92,7 @@ packages_of_debian() {
 
 packages_of_noetic() {
   case "$1" in
-    build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs message-generation nav-msgs rosbag rosbash \
+    build) printf 'ros-noetic-%s ' catkin diagnostic-updater dynamic-reconfigure geometry-msgs interactive-markers message-generation nav-msgs rosbag rosbash \
       roscpp rosgraph-msgs roslaunch roslib rosout rospy rosservice rostopic sensor-msgs std-msgs std-srvs tf2-msgs tf2-ros visualization-msgs ;;
     demo) echo ros-noetic-rostest ;;
     test) printf 'ros-noetic-%s ' rosnode rosmsg rosservice ;;
@@ -196,7 +196,7 @@ configure() {
 }
 
 # build_sanitized TARGET...: with the second compiler, the sanitizers and what libFuzzer needs; Eigen's assertions are on. One folder for the
-# gtests and the fuzzers: warnings are errors.
+# gtests and the fuzzers: warnings are errors. Rostests are not run under the sanitizers; clang-tidy says what clang warns of in them.
 readonly SANITIZE_BUILD=build/sanitize
 build_sanitized() {
   local level=-O1 log=$SANITIZE_BUILD/configure.log

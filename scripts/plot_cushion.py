@@ -1,20 +1,22 @@
 #!/usr/bin/env python3
-"""Draws what `simulate --cushion` wrote: gap and pressure of each cell over time.
+"""Draws what `simulate --cushion` wrote: gap and pressure of each cell, and the speed of its fan, over time.
 
 usage: plot_cushion.py CELLS.csv [-o cushion.png] [--vehicle NAME]
 
-The needed columns are time, vehicle, cell, pressure, gap. Needs matplotlib.
+The needed columns are time, vehicle, cell, pressure, gap, fan_speed. Needs matplotlib.
 """
 import argparse
 import csv
 import sys
 
+COLUMNS = ('time', 'gap', 'pressure', 'fan_speed')
+
 
 def rows_of(path):
     with open(path, newline='') as file:
         reader = csv.DictReader(file)
-        if reader.fieldnames is None or not {'time', 'vehicle', 'cell', 'pressure', 'gap'} <= set(reader.fieldnames):
-            raise ValueError(f'{path}: has no columns time, vehicle, cell, pressure, gap')
+        if reader.fieldnames is None or not {'vehicle', 'cell', *COLUMNS} <= set(reader.fieldnames):
+            raise ValueError(f'{path}: has no columns vehicle, cell, {", ".join(COLUMNS)}')
         return list(reader)
 
 
@@ -27,8 +29,8 @@ def cells_of(rows, vehicle):
     cells = {}
     for row in rows:
         if row['vehicle'] == vehicle:
-            cell = cells.setdefault(int(row['cell']), ([], [], []))
-            for column, key in zip(cell, ('time', 'gap', 'pressure')):
+            cell = cells.setdefault(int(row['cell']), ([], [], [], []))
+            for column, key in zip(cell, COLUMNS):
                 column.append(float(row[key]))
     return cells
 
@@ -37,16 +39,17 @@ def draw(cells, output):
     import matplotlib
     matplotlib.use('Agg')
     from matplotlib import pyplot
-    figure, (above, below) = pyplot.subplots(2, 1, sharex=True, figsize=(8, 5))
-    for number, (time, gap, pressure) in sorted(cells.items()):
-        above.plot(time, [1e3 * each for each in gap], label=f'cell {number}', linewidth=1)
-        below.plot(time, pressure, linewidth=1)
-    above.set_ylabel('gap, mm')
-    above.legend(loc='upper right', fontsize='small')
-    below.set_ylabel('pressure, Pa')
-    below.set_xlabel('time, s')
-    for axes in (above, below):
-        axes.grid(alpha=0.3)
+    figure, axes = pyplot.subplots(3, 1, sharex=True, figsize=(8, 6), gridspec_kw={'height_ratios': (3, 3, 1.4)})
+    for number, (time, gap, pressure, fan_speed) in sorted(cells.items()):
+        axes[0].plot(time, [1e3 * each for each in gap], label=f'cell {number}', linewidth=1)
+        axes[1].plot(time, pressure, linewidth=1)
+        axes[2].plot(time, fan_speed, linewidth=1)
+    axes[0].legend(loc='upper right', fontsize='small')
+    axes[2].set_ylim(bottom=0)
+    for each, label in zip(axes, ('gap, mm', 'pressure, Pa', 'fan speed')):
+        each.set_ylabel(label)
+        each.grid(alpha=0.3)
+    axes[2].set_xlabel('time, s')
     figure.tight_layout()
     figure.savefig(output, dpi=110)
 

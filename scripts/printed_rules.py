@@ -17,8 +17,8 @@ import re
 
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
-# Not yet: doc/report.md, doc/sensors.md, doc/helm.md, doc/craft.md.
-DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md')
+DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md',
+             'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -61,7 +61,7 @@ RULES = (
     Rule(r'roscore .*', until='/rosout_agg', stays=True),
     Rule(r'markers_node .*', beside=(ROSCORE,), until='/hovercraft_markers/markers', stays=True),
     Rule(r'rviz .*', skip='it opens a window'),
-    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --hold|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
+    Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --(hold|pilot|truth-odom truth/odom)|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
          skip=NAMED),
     Rule(r'roslaunch hovercraft_sim sim\.launch set:=.*', beside=(), until='/hovercraft_sim/scenario'),
     # CONTRIBUTING.md
@@ -69,7 +69,20 @@ RULES = (
     Rule(r'scripts/(fuzz|mutate) .*', skip=NAMED),
     Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
-    # doc/sensors.md, doc/helm.md
+    # doc/craft.md
+    Rule(r'roslaunch hovercraft_sim sim\.launch scenario:=\$PWD/config/lift_fan\.yaml', beside=(), until='/hovercraft_sim/scenario', stays=True),
+    Rule(r'rostopic pub -1 /rc5/actuators/lift .*', beside=('roslaunch hovercraft_sim sim.launch scenario:=$PWD/config/lift_fan.yaml',)),
+    # doc/manoeuvres.md
+    Rule(r'rosrun hovercraft_sim pilot .*', beside=('roslaunch hovercraft_sim sim.launch lockstep:=true',)),
+    # doc/sensors.md
+    Rule(r'roslaunch hovercraft_sim sim\.launch truth_odom:=truth/odom', beside=(), until='/hovercraft/truth/odom'),
+    Rule(r'rosbag play --clock run\.bag', beside=(ROSCORE,)),
+    Rule(r'compare filtered\.bag .*', skip='what a filter said: there is none here'),
+    Rule(r'roslaunch hovercraft_sim sim\.launch map:=true .*', beside=(), until='rostopic echo -n 1 /map/info'),
+    # doc/helm.md
+    Rule(r'rosrun hovercraft_sim teleop\.py .*', skip='it reads the keys of a terminal: a test types them'),
+    Rule(r'rosrun hovercraft_sim joy_teleop\.py .*', beside=(ROSCORE,), until='/hovercraft/cmd_vel'),
+    Rule(r'roslaunch hovercraft_sim autonomy\.launch', beside=(), until='rostopic echo -n 1 --filter "m.pose.pose.position.x > -2" /hovercraft/truth/odom'),
     # doc/time.md
     Rule(r'rosrun dynamic_reconfigure dynparam .*', beside=(SIMULATION,)),
     Rule(r'rosservice call .*', beside=(SIMULATION,), says='success: True'),
@@ -80,6 +93,9 @@ RULES = (
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
     Rule(r'scripts/check_(example|page) build_release', skip=SCRIPTS_TEST),
+    # doc/rviz.md
+    Rule(r'roslaunch hovercraft_sim sim\.launch rviz:=true', skip='it opens a window'),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
+    Rule(r'node web/.*|cd web && .*', skip="it needs npm's network; scripts/check_page does it"),
 )

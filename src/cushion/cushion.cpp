@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <tuple>
 
 #include "hovercraft_sim/cushion/gap.h"
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -29,7 +29,9 @@ bool comesBefore(const HemPoint& a, const HemPoint& b) {
 struct Cushion::Airs {
   std::array<CellAir, kMaxCells> air;
   std::array<double, kMaxCells> mean_gap;  // m
-  std::array<double, kMaxHemPoints> compression;
+  Column gap;
+  Column open;
+  Column compression;
 };
 
 /// The ground where it is one plane: what does not depend on the point is computed once.
@@ -38,10 +40,18 @@ class Cushion::PlaneProbe {
   PlaneProbe(const GroundPlane& plane, const BodyMotion& motion)
       : nhat_B_(transposeTimes(motion.R_WB, plane.nhat_W)), gap_(plane.gap(motion.p_WB)) {}
 
-  double gapOfPoint(std::size_t /*point*/, const Vector3& p_BK) const {
-    return dot(nhat_B_, p_BK) + gap_;
+  void gaps(const Hem& hem, Column& gaps) const {
+    const double nx = nhat_B_.x();
+    const double ny = nhat_B_.y();
+    const double nz = nhat_B_.z();
+    const std::size_t count = hem.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      gaps[k] = ((nx * hem.x[k] + ny * hem.y[k]) + nz * hem.z[k]) + gap_;
+    }
   }
-  const Vector3& normalAtPoint(std::size_t /*point*/) const { return nhat_B_; }
+  double nx(std::size_t /*point*/) const { return nhat_B_.x(); }
+  double ny(std::size_t /*point*/) const { return nhat_B_.y(); }
+  double nz(std::size_t /*point*/) const { return nhat_B_.z(); }
   const Vector3& normalAtCell(std::size_t /*cell*/) const { return nhat_B_; }
 
  private:
@@ -53,37 +63,98 @@ class Cushion::PlaneProbe {
 class Cushion::SampledProbe {
  public:
   SampledProbe(const Ground& ground, const BodyMotion& motion, const Cushion& cushion)
-      : R_WB_(motion.R_WB), point_count_(cushion.points_.size()) {
+      : R_WB_(motion.R_WB), point_count_(cushion.hem_.size()) {
     std::array<GroundPoint, kMaxHemPoints + kMaxCells> points;
     int count = 0;
     const auto add = [&](const Vector3& p_B) {
       const Vector3 p_W = times(motion.R_WB, p_B) + motion.p_WB;
       points[static_cast<std::size_t>(count++)] = {p_W.x(), p_W.y(), p_W.z()};
     };
-    for (const Point& point : cushion.points_) add(point.p_BK);
+    for (std::size_t k = 0; k < point_count_; ++k) add(cushion.hem_.at(k));
     for (const Cell& cell : cushion.cells_) add(cell.p_BC);
     const double below = (times(motion.R_WB, cushion.p_BH_) + motion.p_WB).z();
     ground.sample({points.data(), count, below, cushion.reach_}, samples_.data());
   }
 
-  double gapOfPoint(std::size_t point, const Vector3& /*p_BK*/) const {
-    return samples_[point].gap;
+  void gaps(const Hem& /*hem*/, Column& gaps) const {
+    for (std::size_t k = 0; k < point_count_; ++k) gaps[k] = samples_[k].gap;
   }
-  Vector3 normalAtPoint(std::size_t point) const {
-    return transposeTimes(R_WB_, samples_[point].normal());
+  double nx(std::size_t point) const { return inBody(point, 0); }
+  double ny(std::size_t point) const { return inBody(point, 1); }
+  double nz(std::size_t point) const { return inBody(point, 2); }
+  Vector3 normalAtCell(std::size_t cell) const {
+    return transposeTimes(R_WB_, samples_[point_count_ + cell].normal());
   }
-  Vector3 normalAtCell(std::size_t cell) const { return normalAtPoint(point_count_ + cell); }
 
  private:
-  const Matrix3& R_WB_;
+  /// One number of transposeTimes(R_WB, normal).
+  double inBody(std::size_t point, int axis) const {
+    const GroundSample& n = samples_[point];
+    return (R_WB_(0, axis) * n.nx + R_WB_(1, axis) * n.ny) + R_WB_(2, axis) * n.nz;
+  }
+
+  Matrix3 R_WB_;
   std::size_t point_count_;
   std::array<GroundSample, kMaxHemPoints + kMaxCells> samples_;
 };
 
+/// Forces of the skirt and their moments about the centre of mass, in B, point by point.
+class Cushion::HemWrenches {
+ public:
+  /// @param elastic k c of each point, N. GroundSpring::force() number by number.
+  template <class Probe>
+  void fill(const Hem& hem, const GroundSpring& spring, const BodyMotion& motion,
+            const Probe& probe, const Column& elastic) {
+    const GroundSpring laws = spring;
+    const double vx = motion.v_WB_B.x(), vy = motion.v_WB_B.y(), vz = motion.v_WB_B.z();
+    const double wx = motion.w_WB_B.x(), wy = motion.w_WB_B.y(), wz = motion.w_WB_B.z();
+    const std::size_t count = hem.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const double x = hem.x[k], y = hem.y[k], z = hem.z[k];
+      const double nx = probe.nx(k), ny = probe.ny(k), nz = probe.nz(k);
+      const double ux = vx + (wy * z - wz * y);
+      const double uy = vy + (wz * x - wx * z);
+      const double uz = vz + (wx * y - wy * x);
+      const double rate = (nx * ux + ny * uy) + nz * uz;
+      const double N = laws.normalForce(elastic[k], rate);
+      const double slip_x = ux - rate * nx, slip_y = uy - rate * ny, slip_z = uz - rate * nz;
+      const double slip = (slip_x * slip_x + slip_y * slip_y) + slip_z * slip_z;
+      const double share = laws.frictionPerSpeed(N, slip);
+      const double fx = N * nx - share * slip_x;
+      const double fy = N * ny - share * slip_y;
+      const double fz = N * nz - share * slip_z;
+      fx_[k] = fx;
+      fy_[k] = fy;
+      fz_[k] = fz;
+      tx_[k] = y * fz - z * fy;
+      ty_[k] = z * fx - x * fz;
+      tz_[k] = x * fy - y * fx;
+    }
+  }
+
+  /// In mirrored pairs.
+  Wrench sum(const std::vector<MirrorPair>& pairs) const {
+    Wrench sum;
+    for (const MirrorPair& pair : pairs) {
+      sum = sum + (pair[1] < 0 ? at(pair[0]) : at(pair[0]) + at(pair[1]));
+    }
+    return sum;
+  }
+
+ private:
+  Wrench at(int point) const {
+    const auto k = static_cast<std::size_t>(point);
+    return {Vector3(fx_[k], fy_[k], fz_[k]), Vector3(tx_[k], ty_[k], tz_[k])};
+  }
+
+  Column fx_, fy_, fz_;  // N
+  Column tx_, ty_, tz_;  // N m
+};
+
 Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
-    : parameters_(parameters),
-      p_BH_(-p_HB),
-      outflow_factor_(parameters.discharge * std::sqrt(2.0 / parameters.air_density)) {
+    : parameters_(parameters), p_BH_(-p_HB) {
+  const FloatingPointEnvironment environment;
+  outflow_factor_ = parameters.discharge * std::sqrt(2.0 / parameters.air_density);
   demand(!parameters.cells.empty() && parameters.cells.size() <= kMaxCells,
          "a cushion has at least one cell, and no more than fit");
   demand(parameters.fans.size() <= kMaxFans, "a cushion has no more fans than fit");
@@ -96,14 +167,18 @@ Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
     cell.p_BC = described.p_HC - p_HB;
     cell.area = described.area;
     cell.fan = described.fan;
-    cell.first_point = points_.size();
+    cell.first_point = hem_.size();
     for (const HemPoint& point : described.hem) {
-      points_.push_back(
-          {point.p_HK - p_HB, point.length, point.length * parameters.skirt.stiffness});
+      const Vector3 p_BK = point.p_HK - p_HB;
+      hem_.x.push_back(p_BK.x());
+      hem_.y.push_back(p_BK.y());
+      hem_.z.push_back(p_BK.z());
+      hem_.length.push_back(point.length);
+      hem_.stiffness.push_back(point.length * parameters.skirt.stiffness);
       cell.hem_length += point.length;
-      placed_points.push_back({points_.back().p_BK, point.length});
+      placed_points.push_back({p_BK, point.length});
     }
-    cell.end_point = points_.size();
+    cell.end_point = hem_.size();
     demand(cell.end_point > cell.first_point, "a cell has hem");
     total_area_ += cell.area;
     reach_ = std::max(reach_, kMostCompression * described.height);
@@ -111,42 +186,10 @@ Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
     placed_cells.push_back({cell.p_BC, cell.area});
     cells_.push_back(cell);
   }
-  demand(points_.size() <= kMaxHemPoints, "a cushion has no more hem points than fit");
+  demand(hem_.size() <= kMaxHemPoints, "a cushion has no more hem points than fit");
   for (const CushionFan& fan : parameters.fans) intakes_B_.emplace_back(fan.p_HI - p_HB);
   cell_pairs_ = mirrorPairs(placed_cells);
   point_pairs_ = mirrorPairs(placed_points);
-}
-
-double CushionFan::speedAt(double time) const {
-  if (speeds.empty()) return speed;
-  if (!(time > speeds.front().time)) return speeds.front().speed;
-  const auto next =
-      std::upper_bound(speeds.begin(), speeds.end(), time,
-                       [](double t, const FanSpeedPoint& point) { return t < point.time; });
-  if (next == speeds.end()) return speeds.back().speed;
-  const FanSpeedPoint& from = *std::prev(next);
-  return from.speed + (time - from.time) / (next->time - from.time) * (next->speed - from.speed);
-}
-
-double CushionFan::fullSpeed() const {
-  double most = speeds.empty() ? speed : 0.0;
-  for (const FanSpeedPoint& point : speeds) most = std::max(most, point.speed);
-  return most;
-}
-
-FanSpeedCourse FanSpeedCourse::piece(double from, double to, double h) const {
-  const auto speedsAt = [&](double share) {
-    const bool is_early = share < 0.5;
-    const FanSpeeds& first = is_early ? start : middle;
-    const FanSpeeds& second = is_early ? middle : end;
-    const double part = is_early ? 2.0 * share : 2.0 * share - 1.0;
-    FanSpeeds speeds;
-    for (std::size_t i = 0; i < kMaxFans; ++i) {
-      speeds[i] = first[i] + part * (second[i] - first[i]);
-    }
-    return speeds;
-  };
-  return {speedsAt(from / h), speedsAt(0.5 * (from + to) / h), speedsAt(to / h)};
 }
 
 FanSpeeds Cushion::describedSpeeds(double time) const {
@@ -173,17 +216,20 @@ void Cushion::blow(const BodyMotion& motion, const FanSpeeds& speeds, const Prob
   for (std::size_t i = 0; i < parameters_.fans.size(); ++i) {
     fans[i] = atSpeed(parameters_.fans[i].curve, speeds[i]);
   }
+  probe.gaps(hem_, airs.gap);
+  const std::size_t count = hem_.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const HemGap hem = hemGap(airs.gap[k], parameters_.residual_gap);
+    airs.open[k] = hem.open;
+    airs.compression[k] = hem.compression;
+  }
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const Cell& cell = cells_[i];
     double area_under_hem = 0.0;
     double gaps = 0.0;
     for (std::size_t k = cell.first_point; k < cell.end_point; ++k) {
-      const Point& point = points_[k];
-      const double gap = probe.gapOfPoint(k, point.p_BK);
-      const HemGap hem = hemGap(gap, parameters_.residual_gap);
-      area_under_hem += point.length * hem.open;
-      gaps += point.length * gap;
-      airs.compression[k] = hem.compression;
+      area_under_hem += hem_.length[k] * airs.open[k];
+      gaps += hem_.length[k] * airs.gap[k];
     }
     airs.mean_gap[i] = gaps / cell.hem_length;
     const double outflow = outflow_factor_ * leakArea(area_under_hem, cell.area);
@@ -219,19 +265,12 @@ Wrench Cushion::pressureWrench(const Airs& airs) const {
 
 template <class Probe>
 Wrench Cushion::skirtWrench(const BodyMotion& motion, const Probe& probe, const Airs& airs) const {
-  const auto wrenchOf = [&](int index) -> Wrench {
-    const auto k = static_cast<std::size_t>(index);
-    const Point& point = points_[k];
-    const Vector3 force =
-        parameters_.skirt.spring.force(point.stiffness * airs.compression[k],
-                                       probe.normalAtPoint(k), motion.velocityAt(point.p_BK));
-    return {force, cross(point.p_BK, force)};
-  };
-  Wrench sum;
-  for (const MirrorPair& pair : point_pairs_) {
-    sum = sum + (pair[1] < 0 ? wrenchOf(pair[0]) : wrenchOf(pair[0]) + wrenchOf(pair[1]));
-  }
-  return sum;
+  Column elastic;
+  const std::size_t count = hem_.size();
+  for (std::size_t k = 0; k < count; ++k) elastic[k] = hem_.stiffness[k] * airs.compression[k];
+  HemWrenches wrenches;
+  wrenches.fill(hem_, parameters_.skirt.spring, motion, probe, elastic);
+  return wrenches.sum(point_pairs_);
 }
 
 /// What a fan takes in is brought to the craft's velocity at its intake:
@@ -287,12 +326,13 @@ Wrench Cushion::planarWrenchInBody(const BodyMotion& motion, const FanSpeeds& sp
   const double left = std::max(0.0, load - pressureWrench(airs).force.z());
   const double per_metre = left / total_length_;
   const auto wrenchOf = [&](int index) -> Wrench {
-    const Point& point = points_[static_cast<std::size_t>(index)];
-    Vector3 velocity = motion.velocityAt(point.p_BK);
+    const auto k = static_cast<std::size_t>(index);
+    const Vector3 p_BK = hem_.at(k);
+    Vector3 velocity = motion.velocityAt(p_BK);
     velocity.z() = 0.0;
     const Vector3 force =
-        parameters_.skirt.spring.force(per_metre * point.length, Vector3::UnitZ(), velocity);
-    return {force, cross(point.p_BK, force)};
+        parameters_.skirt.spring.force(per_metre * hem_.length[k], Vector3::UnitZ(), velocity);
+    return {force, cross(p_BK, force)};
   };
   Wrench sum = momentumDrag(motion, airs);
   if (!(left > 0.0)) return sum;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hovercraft_sim/math/demand.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 
 namespace hovercraft {
 namespace {
@@ -27,11 +28,12 @@ MeshPlace placeOf(double lines, std::size_t count) {
 
 }  // namespace
 
-HeightMapGround::HeightMapGround(HeightGrid grid)
-    : grid_(std::move(grid)), per_spacing_(1.0 / grid_.spacing) {
+HeightMapGround::HeightMapGround(HeightGrid grid) : grid_(std::move(grid)) {
+  const FloatingPointEnvironment environment;
   demand(grid_.columns >= 2 && grid_.rows >= 2 && grid_.spacing > 0.0 &&
              grid_.heights.size() == grid_.columns * grid_.rows,
          "a height map has at least two rows and columns, and a height for each point");
+  per_spacing_ = 1.0 / grid_.spacing;
 }
 
 GroundSample HeightMapGround::sampleAt(const GroundPoint& point) const {

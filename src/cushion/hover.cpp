@@ -280,6 +280,7 @@ Hover hoverOf(const Cushion& cushion, const HoverBody& body, const FanSpeeds& sp
 }
 
 double longestStableStep(Integrator integrator, const HoverMode& mode) {
+  const FloatingPointEnvironment environment;
   const double rate = mode.damping / mode.inertia;
   const double square = mode.stiffness / mode.inertia;
   if (square == 0.0 && rate == 0.0) return std::numeric_limits<double>::infinity();

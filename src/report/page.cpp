@@ -72,6 +72,7 @@ class PageWriter {
   void writePanels(const std::vector<RunPanel>& panels);
   void writeBands(const std::vector<RunBand>& bands);
   void writeContacts(const std::vector<RunContact>& contacts);
+  void writeManoeuvres(const std::vector<RunManoeuvre>& manoeuvres);
   void writeWords(const RunData& run);
   void writeLedger(const EnergyLedger& ledger);
   void writeGround(const RunGround& ground);
@@ -98,6 +99,7 @@ void PageWriter::writeRun(const RunData& run) {
   json_.endList();
   if (run.ground) writeGround(*run.ground);
   writeContacts(run.contacts);
+  writeManoeuvres(run.manoeuvres);
   writePanels(run.panels);
   writeWords(run);
   json_.endObject();
@@ -241,6 +243,21 @@ void PageWriter::writeContacts(const std::vector<RunContact>& contacts) {
     json_.key("impulse");
     writeVector(contact.impulse);
     json_.endObject();
+  }
+  json_.endList();
+}
+
+void PageWriter::writeManoeuvres(const std::vector<RunManoeuvre>& manoeuvres) {
+  json_.key("manoeuvres").beginList();
+  for (const RunManoeuvre& manoeuvre : manoeuvres) {
+    json_.beginObject();
+    json_.key("craft").value(manoeuvre.craft);
+    json_.key("name").value(manoeuvre.name);
+    json_.key("kind").value(manoeuvre.kind);
+    json_.key("complete").value(manoeuvre.is_complete);
+    json_.key("time").value(toSeconds(manoeuvre.execute_ns));
+    json_.key("end").value(toSeconds(manoeuvre.end_ns));
+    json_.key("text").value(manoeuvre.text).endObject();
   }
   json_.endList();
 }

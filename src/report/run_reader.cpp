@@ -18,6 +18,8 @@ using hovercraft::Vector3;
 
 namespace {
 
+constexpr double kGreatestSeconds = 1e9;  // of a manoeuvre: beyond it a message is none
+
 bool endsIn(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
@@ -51,6 +53,7 @@ class RunMaker {
       run_.ground = groundOf(*run_.scenario);
     }
     readMarks();
+    readManoeuvres();
     addOtherPanels();
     addFacts(bodies);
     return std::move(run_);
@@ -67,6 +70,7 @@ class RunMaker {
   std::vector<std::int64_t> contactsOf(const std::string& body) const;
   const hovercraft::VehicleScenario* describedBody(const std::string& name, bool& is_craft) const;
   void readMarks();
+  void readManoeuvres();
   void addOtherPanels();
   void addFacts(const std::vector<BodyTopics>& bodies);
   void addBodyFacts();
@@ -252,6 +256,39 @@ void RunMaker::readMarks() {
     if (vehicles != nullptr && !(*vehicles)[i].empty()) text += " " + (*vehicles)[i];
     run_.marks.push_back({events->stamps_ns[i] - run_.zero_ns, text});
   }
+}
+
+void RunMaker::readManoeuvres() {
+  for (const auto& [topic, samples] : recorded_.topics) {
+    if (samples.type != "hovercraft_sim/Manoeuvre") continue;
+    used_.insert(topic);
+    const auto* names = samples.textColumn("name");
+    const auto* kinds = samples.textColumn("kind");
+    const auto* texts = samples.textColumn("text");
+    const auto* completes = samples.column("complete");
+    const auto* executes = samples.column("execute");
+    const auto* ends = samples.column("end");
+    if (names == nullptr || kinds == nullptr || texts == nullptr || completes == nullptr ||
+        executes == nullptr || ends == nullptr) {
+      continue;
+    }
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double seconds = (*ends)[i] - (*executes)[i];
+      if (!(seconds >= 0.0 && seconds <= kGreatestSeconds)) continue;
+      RunManoeuvre manoeuvre;
+      manoeuvre.craft = topic.substr(1, topic.rfind('/') - 1);
+      manoeuvre.name = (*names)[i];
+      manoeuvre.kind = (*kinds)[i];
+      manoeuvre.is_complete = (*completes)[i] != 0.0;
+      manoeuvre.end_ns = samples.stamps_ns[i] - run_.zero_ns;
+      // Simulated times count from tick 0 of an episode, stamps through all of them.
+      manoeuvre.execute_ns = manoeuvre.end_ns - static_cast<std::int64_t>(1e9 * seconds);
+      manoeuvre.text = (*texts)[i];
+      run_.manoeuvres.push_back(std::move(manoeuvre));
+    }
+  }
+  std::stable_sort(run_.manoeuvres.begin(), run_.manoeuvres.end(),
+                   [](const auto& a, const auto& b) { return a.execute_ns < b.execute_ns; });
 }
 
 void RunMaker::addOtherPanels() {

@@ -144,7 +144,7 @@ std::optional<RunGround> groundOf(const hovercraft::Scenario& scenario) {
     return ground;
   }
   const hovercraft::HeightGrid& grid =
-      std::get<hovercraft::HeightMapScenario>(scenario.ground->surface).grid;
+      std::get<hovercraft::HeightMapScenario>(scenario.ground->surface).surface->grid();
   const std::size_t stride =
       std::max<std::size_t>(1, (std::max(grid.columns, grid.rows) - 1) / kMostHeights + 1);
   ground.columns = (grid.columns - 1) / stride + 1;

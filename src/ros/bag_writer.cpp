@@ -10,6 +10,7 @@
 #include <ros/message_traits.h>
 #include <std_msgs/String.h>
 
+#include "hovercraft_sim/ros/manoeuvre_messages.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 namespace hovercraft_ros {
@@ -161,6 +162,12 @@ void BagWriter::sample(const hovercraft::SensorSample& sample) {
     message.transforms.push_back(*transform);
     write("/tf", received, message);
   }
+}
+
+void BagWriter::flown(const hovercraft::FlownManoeuvre& manoeuvre, std::size_t vehicle,
+                      hovercraft::Tick tick) {
+  const ros::Time stamp = stampOfTick(tick);
+  write(topic(vehicles_[vehicle], kManoeuvresTopic), stamp, toMessage(manoeuvre, stamp));
 }
 
 void BagWriter::event(const hovercraft_sim::RunEvent& event,

@@ -114,7 +114,7 @@ struct SurfacePainter {
     }
   }
   void operator()(const hovercraft::HeightMapScenario& map) const {
-    const hovercraft::HeightGrid& grid = map.grid;
+    const hovercraft::HeightGrid& grid = map.surface->grid();
     const std::size_t step = 1 + std::max(grid.columns, grid.rows) / kMostShown;
     for (std::size_t row = 0; row + step < grid.rows; row += step) {
       for (std::size_t column = 0; column + step < grid.columns; column += step) {
@@ -128,7 +128,7 @@ struct SurfacePainter {
 
  private:
   void add(const hovercraft::HeightMapScenario& map, std::size_t column, std::size_t row) const {
-    const hovercraft::HeightGrid& grid = map.grid;
+    const hovercraft::HeightGrid& grid = map.surface->grid();
     const double z = grid.at(column, row);
     target.points.push_back(toPointMessage({grid.x + static_cast<double>(column) * grid.spacing,
                                             grid.y + static_cast<double>(row) * grid.spacing, z}));

@@ -5,6 +5,7 @@
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/ros/hovercraft_node.h"
+#include "hovercraft_sim/ros/robot_description.h"
 #include "hovercraft_sim/sim/occupancy.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -81,6 +82,8 @@ void HovercraftNode::addVehicle(const ros::NodeHandle& handle, std::size_t vehic
   };
   // In lockstep the states are latched: a controller answers only those that are waited at.
   const auto stands = [this] { return !config_.lockstep && this->stands(); };
+  const hovercraft::VehicleScenario& craft = config_.scenario.vehicles[vehicle];
+  ros::NodeHandle(handle, craft.name).setParam(kRobotDescription, urdfOf(craft, config_.frames));
   vehicles_.push_back(std::make_unique<VehicleInterface>(
       handle, run_, vehicle, config_.frames,
       VehicleInterface::Owner{take, stands, config_.truth_odom}, config_.lockstep));

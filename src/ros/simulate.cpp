@@ -19,6 +19,7 @@
 #include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/sim/commands_csv.h"
 #include "hovercraft_sim/sim/contacts_csv.h"
+#include "hovercraft_sim/sim/craft_pilots.h"
 #include "hovercraft_sim/sim/cushion_csv.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/output_file.h"
@@ -70,8 +71,12 @@ void checkRequest(const SimulateRequest& request) {
   if (request.every < 1) {
     throw std::invalid_argument(fmt::format("--every = {}: must be 1 or greater", request.every));
   }
-  if (request.commands.empty() && request.duration.empty()) {
-    throw std::invalid_argument("--duration is missing: without --commands it must be given");
+  if (request.commands.empty() && request.pilots.empty() && request.duration.empty()) {
+    throw std::invalid_argument(
+        "--duration is missing: without --commands and --pilot it must be given");
+  }
+  if (!request.commands.empty() && !request.pilots.empty()) {
+    throw std::invalid_argument("--pilot: must not stand beside --commands");
   }
   if (!isTopicOfCraft(request.truth_odom)) {
     throw std::invalid_argument(
@@ -80,10 +85,12 @@ void checkRequest(const SimulateRequest& request) {
   if (request.truth_odom != kOdomTopic && fs::path(request.output).extension() != ".bag") {
     throw std::invalid_argument("--truth-odom: has a meaning with an --output that is a bag only");
   }
+  std::vector<std::string> inputs = {request.scenario, request.commands};
+  inputs.insert(inputs.end(), request.pilots.begin(), request.pilots.end());
   hovercraft::checkOutputs({{"--output", request.output},
                             {"--contacts", request.contacts},
                             {"--cushion", request.cushion}},
-                           {request.scenario, request.commands});
+                           inputs);
 }
 
 /// Hands everything on to another sink, and counts the wall time that this one takes.
@@ -102,6 +109,9 @@ class TimedSink : public hovercraft::StateSink {
   }
   void sample(const hovercraft::SensorSample& sample) override {
     timed([&] { next_->sample(sample); });
+  }
+  void flown(const hovercraft::FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
+    timed([&] { next_->flown(manoeuvre, vehicle, tick); });
   }
   void close() override {
     timed([&] { next_->close(); });
@@ -151,6 +161,26 @@ void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scena
   }
 }
 
+Tick lastTickOf(const SimulateRequest& request, const Scenario& scenario,
+                const hovercraft::CraftPilots& pilots) {
+  if (!request.duration.empty()) return ticksOfDuration(request.duration, scenario);
+  if (!request.pilots.empty()) return pilots.lastTick();
+  return ticksOfCommands(request.commands, scenario);
+}
+
+/// What each manoeuvre came to; one that is flown when the run ends as well.
+void reportManoeuvres(const hovercraft::CraftPilots& pilots, const Scenario& scenario,
+                      std::ostream& messages) {
+  for (const hovercraft::CraftPilot& pilot : pilots.pilots()) {
+    const std::string whose =
+        scenario.vehicles.size() > 1 ? scenario.vehicles[pilot.vehicle()].name + ": " : "";
+    for (const hovercraft::FlownManoeuvre& flown : pilot.flown()) {
+      messages << whose << hovercraft::toText(flown);
+    }
+    if (!pilot.isFlown()) messages << whose << "the run ended before the last manoeuvre did\n";
+  }
+}
+
 }  // namespace
 
 Scenario loadScenarioFile(const std::string& path, const hovercraft::OverrideList& overrides) {
@@ -179,6 +209,16 @@ std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path, const
   return std::make_unique<hovercraft::StatesCsvWriter>(path, scenario);
 }
 
+/// What else it reads and writes.
+std::vector<std::string> filesOf(const SimulateRequest& request) {
+  std::vector<std::string> files = request.pilots;
+  for (const std::string* file : {&request.scenario, &request.commands, &request.output,
+                                  &request.contacts, &request.cushion}) {
+    files.push_back(*file);
+  }
+  return files;
+}
+
 /// The output and the CSV files beside it, each around those before.
 std::unique_ptr<hovercraft::StateSink> openOutputs(const SimulateRequest& request,
                                                    const Scenario& scenario) {
@@ -192,11 +232,8 @@ std::unique_ptr<hovercraft::StateSink> openOutputs(const SimulateRequest& reques
                                                             std::move(output));
   }
   if (!request.sensors.empty()) {
-    output = std::make_unique<hovercraft::SensorsCsvWriter>(
-        request.sensors, scenario,
-        std::vector<std::string>{request.scenario, request.commands, request.output,
-                                 request.contacts, request.cushion},
-        std::move(output));
+    output = std::make_unique<hovercraft::SensorsCsvWriter>(request.sensors, scenario,
+                                                            filesOf(request), std::move(output));
   }
   return output;
 }
@@ -213,10 +250,10 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
   checkRequest(request);
   Scenario scenario = loadScenarioFile(request.scenario, {"--set", request.sets});
   if (request.hold) holdCommands(scenario);
+  hovercraft::CraftPilots pilots(request.pilots, scenario);
   hovercraft::RunPlan plan;
   plan.every = request.every;
-  plan.last_tick = request.duration.empty() ? ticksOfCommands(request.commands, scenario)
-                                            : ticksOfDuration(request.duration, scenario);
+  plan.last_tick = lastTickOf(request, scenario, pilots);
   const std::unique_ptr<hovercraft::CommandSource> commands =
       request.commands.empty() ? std::make_unique<hovercraft::NoCommands>()
                                : openCommands(request.commands, scenario);
@@ -229,12 +266,19 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
     plan.on_progress = [&bar](Tick tick) { bar->show(tick); };
   }
   TimedSink timed(std::move(output));
+  if (!request.pilots.empty()) {
+    // With a duration it is the end, else that of the last pilot.
+    plan.steer = [&](hovercraft::Simulation& now) {
+      return pilots.steer(now, timed) || !request.duration.empty();
+    };
+  }
   const std::int64_t begin = steadyNow();
   hovercraft::RunSummary summary = hovercraft::run(simulation, *commands, timed, plan);
   const std::int64_t wall_ns = steadyNow() - begin;
   bar.reset();
 
   reportTimeouts(summary, scenario, messages);
+  reportManoeuvres(pilots, scenario, messages);
   if (simulation.world() && simulation.world()->stalls() > 0) {
     messages << fmt::format(
         "contact: {} times the rest of a step was cut off, as more happened in it than its bounds "

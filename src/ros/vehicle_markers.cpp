@@ -23,13 +23,19 @@ using visualization_msgs::Marker;
 struct Color {
   float r, g, b, a;
 };
-constexpr Color kHullColor = {0.20F, 0.45F, 0.75F, 1.0F};
+/// Of the craft: those of Okabe and Ito, which people who see fewer colours tell apart.
+constexpr std::array<Color, kCraftColors> kHullColors = {{{0.20F, 0.45F, 0.75F, 1.0F},
+                                                          {0.84F, 0.37F, 0.0F, 1.0F},
+                                                          {0.0F, 0.62F, 0.45F, 1.0F},
+                                                          {0.80F, 0.47F, 0.65F, 1.0F},
+                                                          {0.94F, 0.89F, 0.26F, 1.0F},
+                                                          {0.34F, 0.71F, 0.91F, 1.0F}}};
 constexpr Color kBowColor = {0.95F, 0.95F, 0.95F, 1.0F};
 constexpr Color kEngineColor = {0.25F, 0.25F, 0.28F, 1.0F};
 constexpr Color kThrustColor = {1.0F, 0.55F, 0.0F, 0.9F};
 constexpr Color kSaturatedColor = {0.9F, 0.1F, 0.1F, 0.9F};
 constexpr Color kBodyColor = {0.75F, 0.55F, 0.30F, 1.0F};
-constexpr Color kObstacleColor = {0.55F, 0.55F, 0.55F, 0.6F};
+constexpr Color kObstacleColor = {0.87F, 0.84F, 0.74F, 1.0F};  // brighter than any ground
 constexpr Color kPathColor = {0.1F, 0.8F, 0.3F, 1.0F};
 
 constexpr double kLeastEdge = 0.02;         // m: a flat plate is still seen
@@ -38,6 +44,8 @@ constexpr double kEngineLength = 0.08;      // m
 constexpr double kArrowPerMaximum = 0.8;    // m of arrow at full thrust
 constexpr double kLeastShownThrust = 0.01;  // of the maximum
 constexpr double kPathWidth = 0.03;         // m
+constexpr double kNameHeight = 0.12;        // m
+constexpr double kNameAbove = 0.45;         // m above base_link
 
 Marker marker(const hovercraft::VehicleScenario& craft, const std::string& kind, int id, int type,
               const Color& color) {
@@ -103,15 +111,15 @@ void setVisual(Marker& target, const hovercraft::VisualScenario& visual, const Q
   target.pose.orientation = toQuaternionMessage(q_WH * hovercraft::quaternionFromRpy(visual.rpy));
 }
 
-std::vector<Marker> hullMarkers(const hovercraft::VehicleScenario& craft) {
+std::vector<Marker> hullMarkers(const hovercraft::VehicleScenario& craft, const Color& color) {
   std::vector<Marker> markers;
   if (craft.visual) {
-    Marker mesh = marker(craft, "hull", 0, Marker::MESH_RESOURCE, kHullColor);
+    Marker mesh = marker(craft, "hull", 0, Marker::MESH_RESOURCE, color);
     setVisual(mesh, *craft.visual, {}, Vector3::Zero());
     return {mesh};
   }
   if (craft.parts.empty()) {
-    Marker box = marker(craft, "hull", 0, Marker::CUBE, kHullColor);
+    Marker box = marker(craft, "hull", 0, Marker::CUBE, color);
     const Vector3 edges = equivalentBox(craft.mass_properties);
     setScale(box, edges.cwiseMax(kLeastEdge));
     box.pose.position = toPointMessage(craft.mass_properties.p_HB);
@@ -126,7 +134,7 @@ std::vector<Marker> hullMarkers(const hovercraft::VehicleScenario& craft) {
   }
   int id = 0;
   for (const hovercraft::PartScenario& part : craft.parts) {
-    Marker shape = marker(craft, "hull", id++, Marker::CUBE, kHullColor);
+    Marker shape = marker(craft, "hull", id++, Marker::CUBE, color);
     shape.pose.position = toPointMessage(part.p_HP);
     shape.pose.orientation = toQuaternionMessage(hovercraft::quaternionFromRpy(part.rpy));
     std::visit(ShapePainter{shape}, part.shape);
@@ -156,8 +164,8 @@ Vector3 equivalentBox(const hovercraft::MassProperties& body) {
   return edges;
 }
 
-std::vector<Marker> craftMarkers(const hovercraft::VehicleScenario& craft) {
-  std::vector<Marker> markers = hullMarkers(craft);
+std::vector<Marker> craftMarkers(const hovercraft::VehicleScenario& craft, std::size_t index) {
+  std::vector<Marker> markers = hullMarkers(craft, kHullColors[index % kCraftColors]);
   int id = 0;
   for (const hovercraft::EngineParameters& engine : craft.engines) {
     if (engine.min_thrust == 0.0 && engine.max_thrust == 0.0) continue;  // not built in
@@ -168,6 +176,14 @@ std::vector<Marker> craftMarkers(const hovercraft::VehicleScenario& craft) {
     markers.push_back(fan);
   }
   return markers;
+}
+
+Marker nameMarker(const hovercraft::VehicleScenario& craft) {
+  Marker name = marker(craft, "name", 0, Marker::TEXT_VIEW_FACING, kBowColor);
+  name.scale.z = kNameHeight;
+  name.pose.position = toPointMessage({0.0, 0.0, kNameAbove});
+  name.text = craft.name;
+  return name;
 }
 
 std::vector<Marker> thrustMarkers(const hovercraft::VehicleScenario& craft,

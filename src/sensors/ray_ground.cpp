@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace hovercraft {
 namespace {
@@ -54,9 +56,13 @@ double firstZero(double f0, double fm, double f1) {
 
 }  // namespace
 
+RayGround::RayGround(std::shared_ptr<const HeightMapGround> map) : map_(std::move(map)) {
+  const std::vector<double>& heights = map_->grid().heights;
+  highest_ = *std::max_element(heights.begin(), heights.end());
+}
+
 RayGround::RayGround(const HeightGrid& grid)
-    : map_(std::in_place, grid),
-      highest_(*std::max_element(grid.heights.begin(), grid.heights.end())) {}
+    : RayGround(std::make_shared<const HeightMapGround>(grid)) {}
 
 double RayGround::heightOver(const Vector3& p_W) const {
   const GroundPoint point = {p_W.x(), p_W.y(), 0.0};
@@ -109,7 +115,7 @@ void RayGround::cast(const BeamFan& fan, const Pose& X_WS, double farthest, doub
     const Vector3 direction_W = times(X_WS.R_AB, Vector3(fan.cosines[beam], fan.sines[beam], 0.0));
     const double reach = std::min(farthest, ranges[beam]);
     const double range =
-        map_ ? hitMap(X_WS.p_AB, direction_W, reach) : hitPlane(X_WS.p_AB, direction_W);
+        map_ != nullptr ? hitMap(X_WS.p_AB, direction_W, reach) : hitPlane(X_WS.p_AB, direction_W);
     ranges[beam] = std::min(ranges[beam], range);
   }
 }

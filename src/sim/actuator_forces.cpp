@@ -76,4 +76,17 @@ std::vector<Force> forcesOf(const VehicleScenario& vehicle) {
   return forces;
 }
 
+std::vector<FanDrive> fanDrivesOf(const VehicleScenario& vehicle) {
+  std::vector<FanDrive> drives;
+  if (!vehicle.cushion) return drives;
+  const std::vector<CushionFan>& fans = vehicle.cushion->fans;
+  for (std::size_t fan = 0; fan < fans.size(); ++fan) {
+    for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
+      if (fans[fan].lift_fan != vehicle.actuators[i].name) continue;
+      drives.push_back({fan, kFirstActuator + i});
+    }
+  }
+  return drives;
+}
+
 }  // namespace hovercraft

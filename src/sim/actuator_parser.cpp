@@ -126,7 +126,7 @@ ActuatorScenario parseActuator(const std::string& name, const ConfigReader& read
       break;
   }
   actuator.air_density = reader.numberOr(kStandardAirDensity, "air_density", kPositive);
-  // A lift fan runs when the run begins. Its level is reported; no cushion asks for it yet.
+  // A lift fan runs when the run begins.
   const double initial = actuator.kind == ActuatorKind::kLiftFan ? 1.0 : 0.0;
   actuator.initial = reader.numberOr(initial, "initial");
   if (actuator.initial < actuator.motion.min_thrust ||

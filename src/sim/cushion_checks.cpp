@@ -175,6 +175,39 @@ class CushionCheck {
   double weight_;  // N
 };
 
+/// A lift fan that moves no air: an error beside a cushion, whose fan should name it, and a note
+/// where there is none.
+void checkLiftFan(const ConfigReader& lift_fan, const ScenarioSource& source,
+                  const VehicleScenario& vehicle, const std::string& name) {
+  if (!vehicle.cushion) {
+    if (source.note) {
+      source.note(lift_fan.where("") +
+                  ": the craft has no cushion that it feeds: its level is followed and reported");
+    }
+    return;
+  }
+  const std::vector<CushionFan>& fans = vehicle.cushion->fans;
+  if (std::any_of(fans.begin(), fans.end(),
+                  [&](const CushionFan& fan) { return fan.lift_fan == name; })) {
+    return;
+  }
+  lift_fan.fail("", fmt::format("feeds no cell: a fan of the cushion must say lift_fan: {}", name));
+}
+
+/// A fan of a cushion that no cell names.
+void noteIdleFans(const ConfigReader& cushion, const ScenarioSource& source,
+                  const CushionParameters& parameters) {
+  if (!source.note) return;
+  for (std::size_t fan = 0; fan < parameters.fans.size(); ++fan) {
+    if (std::any_of(parameters.cells.begin(), parameters.cells.end(),
+                    [&](const CushionCell& cell) { return cell.fan == fan; })) {
+      continue;
+    }
+    source.note(cushion.map("fans").map(parameters.fans[fan].name).where("") +
+                ": feeds no cell: none names it as its fan");
+  }
+}
+
 /// Pads are springs: the step must be short enough for a body that stands on its lowest vertices.
 /// With damping alpha N, N about the weight, heave has D/M = alpha g.
 void checkPads(const ConfigReader& ground, const Scenario& scenario, const VehicleScenario& body) {
@@ -210,8 +243,14 @@ void checkCushions(const ConfigReader& top, const ScenarioSource& source,
                    const Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
   for (const VehicleScenario& vehicle : scenario.vehicles) {
+    for (const ActuatorScenario& actuator : vehicle.actuators) {
+      if (actuator.kind != ActuatorKind::kLiftFan) continue;
+      checkLiftFan(vehicles.map(vehicle.name).map("actuators").map(actuator.name), source, vehicle,
+                   actuator.name);
+    }
     if (!vehicle.cushion) continue;
     const ConfigReader reader = vehicles.map(vehicle.name).map("cushion");
+    noteIdleFans(reader, source, *vehicle.cushion);
     CushionCheck(reader, source, scenario, vehicle).run();
   }
   if (!scenario.ground) return;

@@ -20,19 +20,21 @@ CushionCsvWriter::CushionCsvWriter(const std::string& path, const Scenario& scen
         fmt::format("--cushion = {}: no vehicle of the scenario has a cushion", path));
   }
   for (const VehicleScenario& vehicle : scenario.vehicles) names_.push_back(vehicle.name);
-  const std::string header = "time,vehicle,cell,pressure,gap,flow,force\n";
+  const std::string header = "time,vehicle,cell,pressure,gap,flow,force,fan_speed,power\n";
   file_.write(header.data(), header.size());
 }
 
 void CushionCsvWriter::state(const Simulation& simulation) {
   for (std::size_t vehicle = 0; vehicle < names_.size(); ++vehicle) {
     simulation.cushionReport(vehicle, report_);
+    const auto& cushion = simulation.scenario().vehicles[vehicle].cushion;
     for (std::size_t i = 0; i < report_.cells.size(); ++i) {
       const CellReport& cell = report_.cells[i];
-      const std::string row =
-          fmt::format("{},{},{},{},{},{},{}\n", secondsText(simulation.timeNs()), names_[vehicle],
-                      i, numberText(cell.pressure), numberText(cell.gap), numberText(cell.flow),
-                      numberText(cell.force));
+      const std::string row = fmt::format(
+          "{},{},{},{},{},{},{},{},{}\n", secondsText(simulation.timeNs()), names_[vehicle], i,
+          numberText(cell.pressure), numberText(cell.gap), numberText(cell.flow),
+          numberText(cell.force), numberText(report_.fan_speeds[cushion->cells[i].fan]),
+          numberText(cell.pressure * cell.flow));
       file_.write(row.data(), row.size());
     }
   }

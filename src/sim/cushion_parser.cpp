@@ -12,11 +12,45 @@ namespace {
 const NumberRule kDischargeRule = {[](double x) { return x > 0.0 && x <= 1.0; },
                                    "must be greater than 0 and at most 1"};
 
-CushionFan parseFan(const std::string& name, const ConfigReader& reader) {
+/// What turns a fan: one speed, speeds over time, or an actuator of the craft. @param actuators of
+/// it.
+void parseSpeed(const ConfigReader& reader, const std::vector<ActuatorScenario>& actuators,
+                CushionFan& fan) {
+  if (reader.has("speed") && reader.has("speeds")) {
+    reader.fail("speeds", "must not stand beside speed");
+  }
+  fan.speed = reader.numberOr(1.0, "speed", kNotNegative);
+  if (reader.has("lift_fan")) {
+    for (const char* key : {"speed", "speeds"}) {
+      if (reader.has(key)) reader.fail(key, "must not stand beside lift_fan, which turns the fan");
+    }
+    fan.lift_fan = reader.text("lift_fan");
+    const auto turns_it = [&](const ActuatorScenario& actuator) {
+      return actuator.name == fan.lift_fan && actuator.kind == ActuatorKind::kLiftFan;
+    };
+    const auto actuator = std::find_if(actuators.begin(), actuators.end(), turns_it);
+    if (actuator == actuators.end()) {
+      reader.fail("lift_fan", "must name an actuator of the craft, of kind: lift_fan");
+    }
+    if (!reader.has("intake")) fan.p_HI = actuator->motion.p_HE;
+  }
+  if (!reader.has("speeds")) return;
+  for (const ConfigReader& point : reader.list("speeds")) {
+    point.allowOnly({"time", "speed"});
+    const double time = point.number("time", kNotNegative);
+    if (!fan.speeds.empty() && !(time > fan.speeds.back().time)) {
+      point.fail("time", "must be greater than the time before it");
+    }
+    fan.speeds.push_back({time, point.number("speed", kNotNegative)});
+  }
+}
+
+CushionFan parseFan(const std::string& name, const ConfigReader& reader,
+                    const std::vector<ActuatorScenario>& actuators) {
   if (!isGraphName(name)) {
     reader.fail("", "a name is a ROS name: a letter, then letters, digits and _");
   }
-  reader.allowOnly({"shutoff", "slope", "curve", "intake", "speed", "speeds"});
+  reader.allowOnly({"shutoff", "slope", "curve", "intake", "speed", "speeds", "lift_fan"});
   CushionFan fan;
   fan.name = name;
   fan.curve.shutoff = reader.number("shutoff", kPositive);
@@ -28,19 +62,7 @@ CushionFan parseFan(const std::string& name, const ConfigReader& reader) {
                 "flow");
   }
   fan.p_HI = reader.vectorOr(Vector3::Zero(), "intake", kCoordinate);
-  if (reader.has("speed") && reader.has("speeds")) {
-    reader.fail("speeds", "must not stand beside speed");
-  }
-  fan.speed = reader.numberOr(1.0, "speed", kNotNegative);
-  if (!reader.has("speeds")) return fan;
-  for (const ConfigReader& point : reader.list("speeds")) {
-    point.allowOnly({"time", "speed"});
-    const double time = point.number("time", kNotNegative);
-    if (!fan.speeds.empty() && !(time > fan.speeds.back().time)) {
-      point.fail("time", "must be greater than the time before it");
-    }
-    fan.speeds.push_back({time, point.number("speed", kNotNegative)});
-  }
+  parseSpeed(reader, actuators, fan);
   return fan;
 }
 
@@ -184,6 +206,7 @@ Skirt parseSkirt(const ConfigReader& reader) {
 }
 
 std::string speedText(const CushionFan& fan) {
+  if (!fan.lift_fan.empty()) return "lift_fan: " + yamlText(fan.lift_fan);
   if (fan.speeds.empty()) return "speed: " + yamlNumber(fan.speed);
   std::string points;
   for (const FanSpeedPoint& point : fan.speeds) {
@@ -206,7 +229,8 @@ std::string cellYaml(const CushionCell& cell, const std::vector<CushionFan>& fan
 
 }  // namespace
 
-std::optional<CushionParameters> parseCushion(const ConfigReader& vehicle) {
+std::optional<CushionParameters> parseCushion(const ConfigReader& vehicle,
+                                              const std::vector<ActuatorScenario>& actuators) {
   if (!vehicle.has("cushion")) return std::nullopt;
   const ConfigReader reader = vehicle.map("cushion");
   reader.allowOnly(
@@ -217,8 +241,15 @@ std::optional<CushionParameters> parseCushion(const ConfigReader& vehicle) {
   cushion.residual_gap =
       reader.has("residual_gap") ? reader.length("residual_gap") : cushion.residual_gap;
   cushion.air_density = reader.numberOr(cushion.air_density, "air_density", kPositive);
-  for (const auto& [name, fan] : reader.map("fans").maps()) {
-    cushion.fans.push_back(parseFan(name, fan));
+  for (const auto& [name, entry] : reader.map("fans").maps()) {
+    const CushionFan fan = parseFan(name, entry, actuators);
+    const auto is_turned_alike = [&](const CushionFan& other) {
+      return !fan.lift_fan.empty() && other.lift_fan == fan.lift_fan;
+    };
+    if (std::any_of(cushion.fans.begin(), cushion.fans.end(), is_turned_alike)) {
+      entry.fail("lift_fan", "turns another fan already: one lift_fan is one fan");
+    }
+    cushion.fans.push_back(fan);
   }
   if (cushion.fans.empty() || cushion.fans.size() > kMaxFans) {
     reader.fail("fans", fmt::format("must name from 1 to {} fans", kMaxFans));

@@ -75,7 +75,7 @@ HeightMapScenario parseHeightMap(const ConfigReader& reader, const ScenarioSourc
   if (!(map.z_max > map.z_min)) reader.fail("z_max", "must be greater than z_min");
   map.image = imageOf(reader, source);
   try {
-    map.grid = gridOf(map);
+    map.surface = std::make_shared<const HeightMapGround>(gridOf(map));
   } catch (const std::invalid_argument& error) {
     reader.fail(reader.has("file") ? "file" : "data", error.what());
   }
@@ -111,7 +111,7 @@ struct SurfaceMaker {
     return std::make_shared<PlaneGround>(GroundPlane{nhat_W, nhat_W.z() * plane.height});
   }
   std::shared_ptr<const Ground> operator()(const HeightMapScenario& map) const {
-    return std::make_shared<HeightMapGround>(map.grid);
+    return map.surface;
   }
 };
 

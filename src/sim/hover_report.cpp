@@ -76,7 +76,7 @@ std::string hoverText(const HoverReport& report) {
   std::string text = fmt::format("vehicle {}: {}\n", report.vehicle,
                                  kStatusTexts[static_cast<std::size_t>(hover.status)]);
   text += hoverLine("weight", report.weight, "N");
-  text += hoverLine("cushion area", report.area, "m^2");
+  text += hoverLine("area of the cells", report.area, "m^2");
   text += hoverLine("hem length", report.hem_length, "m");
   text += hoverLine("lift-off speed", hover.lift_off_speed, "of the fans' nominal speed");
   if (hover.status != HoverStatus::kHovers) return text;

@@ -76,7 +76,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
       sink.state(simulation);
       next_output += plan.every;
     }
-    if (tick >= plan.last_tick) break;
+    if (tick >= plan.last_tick || (plan.steer && !plan.steer(simulation))) break;
     for (; waiting && waiting->tick <= tick; waiting = commands.next()) simulation.push(*waiting);
     simulation.step();
     watch.look(tick);

@@ -196,7 +196,7 @@ VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader
   VehicleScenario vehicle = parseMovingBody(name, reader, source, model);
   parseEngines(reader, vehicle);
   if (reader.has("actuators")) vehicle.actuators = parseActuators(reader.map("actuators"));
-  vehicle.cushion = parseCushion(reader);
+  vehicle.cushion = parseCushion(reader, vehicle.actuators);
   return vehicle;
 }
 

@@ -30,7 +30,7 @@ struct GroundMaker {
   RayGround operator()(const PlaneScenario& plane) const {
     return RayGround(GroundPlane{plane.normal, plane.normal.z() * plane.height});
   }
-  RayGround operator()(const HeightMapScenario& map) const { return RayGround(map.grid); }
+  RayGround operator()(const HeightMapScenario& map) const { return RayGround(map.surface); }
 };
 
 std::optional<RayGround> rayGroundOf(const Scenario& scenario) {

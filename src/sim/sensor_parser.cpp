@@ -18,11 +18,15 @@ namespace {
 
 using Keys = std::vector<std::string>;
 
-constexpr double kMostNoise = 1e30;           // of any unit: its square is still a number
-constexpr double kMostBeams = 20000.0;        // a turn in steps of a minute of arc
-constexpr double kLongestLatency = 60.0;      // s
-constexpr double kMostOnTheirWay = 500000.0;  // numbers of all sensors that wait: a snapshot
-                                              // of them is below its limit
+constexpr double kMostNoise = 1e30;       // of any unit: its square is still a number
+constexpr double kMostBeams = 20000.0;    // a turn in steps of a minute of arc
+constexpr double kLongestLatency = 60.0;  // s
+
+/// Numbers of all sensors that wait to be delivered. Snapshots hold them in up to 26 bytes each,
+/// and take what is a text of kLongestYamlText and of kMostYamlValues at most.
+constexpr double kMostOnTheirWay = 600000.0;
+constexpr double kNumbersOfASample = 6.0;  // what a sample takes besides its values: as much text
+
 constexpr double kStandardGravity = 9.80665;  // m/s²
 
 const NumberRule kNoise = {[](double x) { return x >= 0.0 && x <= kMostNoise; },
@@ -236,11 +240,12 @@ SensorParameters parseSensor(const std::string& name, const ConfigReader& reader
   return sensor;
 }
 
-/// Values of a sensor that may wait at once, as a snapshot writes them.
-double numbersOnTheirWay(const SensorParameters& sensor, std::int64_t step_ns) {
-  const double samples = static_cast<double>(sensor.latency_ns) /
-                         (static_cast<double>(sensor.period) * static_cast<double>(step_ns));
-  return (samples + 1.0) * static_cast<double>(sampleFields(sensor).size() + 3);
+/// What may wait of a sensor's samples, in numbers of a snapshot.
+double numbersOnTheirWay(const SensorParameters& sensor, const Scenario& scenario) {
+  const double samples =
+      static_cast<double>(sensor.latency_ns) /
+      (static_cast<double>(sensor.period) * static_cast<double>(scenario.step_ns));
+  return (samples + 1.0) * (static_cast<double>(sampleFields(sensor).size()) + kNumbersOfASample);
 }
 
 void parseTf(const ConfigReader& reader, VehicleScenario& vehicle) {
@@ -314,11 +319,11 @@ struct SharedBounds {
 };
 
 void addSensor(const ConfigReader& reader, const std::string& vehicle,
-               const SensorParameters& sensor, std::int64_t step_ns, SharedBounds& shared) {
-  shared.on_their_way += numbersOnTheirWay(sensor, step_ns);
+               const SensorParameters& sensor, const Scenario& scenario, SharedBounds& shared) {
+  shared.on_their_way += numbersOnTheirWay(sensor, scenario);
   if (shared.on_their_way > kMostOnTheirWay) {
-    reader.fail("latency", fmt::format("must be so short that at most {:.0f} numbers of all "
-                                       "sensors are on their way",
+    reader.fail("latency", fmt::format("must be so short that at most {:.0f} numbers are on "
+                                       "their way, of all sensors together",
                                        kMostOnTheirWay));
   }
   try {
@@ -339,7 +344,7 @@ void parseSensors(const ConfigReader& top, Scenario& scenario) {
     if (reader.has("sensors")) {
       for (const auto& [name, sensor] : reader.map("sensors").maps()) {
         vehicle.sensors.push_back(parseSensor(name, sensor, {scenario}));
-        addSensor(sensor, vehicle.name, vehicle.sensors.back(), scenario.step_ns, shared);
+        addSensor(sensor, vehicle.name, vehicle.sensors.back(), scenario, shared);
       }
     }
     parseTf(reader, vehicle);

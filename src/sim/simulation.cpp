@@ -33,6 +33,11 @@ bool isSound(const RigidBodyState<Orientation>& body) {
   return std::isfinite((sum.x() + sum.y()) + sum.z()) && isRotation(body.orientation);
 }
 
+/// The speed of a fan at the level of its actuator: a level may lie below its limit by rounding.
+double fanSpeedAt(double level) {
+  return std::max(0.0, level);
+}
+
 /// Ends what drag left of the momenta before it becomes denormal numbers.
 /// @returns false if the state is not finite.
 template <class Orientation>
@@ -55,6 +60,7 @@ Simulation::Simulation(Scenario scenario)
   const FloatingPointEnvironment environment;
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     engine_dynamics_.emplace_back(parametersOf(vehicle), scenario_.step_ns);
+    fan_drives_.push_back(fanDrivesOf(vehicle));
   }
   inputs_.resize(world_.scene().bodies().size());
   for (StepInputs& inputs : inputs_) {
@@ -177,13 +183,24 @@ void Simulation::applyDueCommands() {
   }
 }
 
-/// The speeds of the fans over the step, at its stages.
-void Simulation::turnFans(const Cushion& cushion, FanSpeedCourse& course) const {
+/// The speeds of the fans of a craft's cushion over the step, at its stages: as they are described,
+/// and of those that actuators turn the actuators' levels.
+void Simulation::turnFans(std::size_t vehicle) {
+  const auto& forces = modelOf(vehicle).ground_forces;
+  if (forces == nullptr || !forces->cushion()) return;
+  const Cushion& cushion = *forces->cushion();
+  StepInputs& inputs = inputs_[vehicle];
+  FanSpeedCourse& course = inputs.fan_speeds;
   const double start = toSeconds(timeNs());
   const double h = toSeconds(scenario_.step_ns);
   course.start = cushion.describedSpeeds(start);
   course.middle = cushion.describedSpeeds(start + 0.5 * h);
   course.end = cushion.describedSpeeds(start + h);
+  for (const FanDrive& drive : fan_drives_[vehicle]) {
+    course.start[drive.fan] = fanSpeedAt(inputs.thrusts.start[drive.actuator]);
+    course.middle[drive.fan] = fanSpeedAt(inputs.thrusts.middle[drive.actuator]);
+    course.end[drive.fan] = fanSpeedAt(inputs.thrusts.end[drive.actuator]);
+  }
 }
 
 /// What acts on each body in the step that begins now.
@@ -193,8 +210,7 @@ void Simulation::prepareInputs() {
     StepInputs& inputs = inputs_[vehicle];
     engine_dynamics_[vehicle].course(engines, state_.tick, inputs.thrusts);
     inputs.is_loaded = false;
-    const auto& forces = modelOf(vehicle).ground_forces;
-    if (forces != nullptr && forces->cushion()) turnFans(*forces->cushion(), inputs.fan_speeds);
+    turnFans(vehicle);
     ++vehicle;
   }
   for (const ExternalWrench& external : state_.wrenches) {
@@ -333,7 +349,10 @@ void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const
   const BodyMotion motion = std::visit(
       [&](const auto& state) { return model.motionInBody(state, around); }, state_.bodies[vehicle]);
   const GroundForces& forces = *model.ground_forces;
-  const FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
+  FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
+  for (const FanDrive& drive : fan_drives_[vehicle]) {
+    speeds[drive.fan] = fanSpeedAt(state_.engines[vehicle][drive.actuator].thrust);
+  }
   forces.report(motion, around, speeds, report.cells.data());
   for (const CellReport& cell : report.cells) report.power += cell.pressure * cell.flow;
   const std::size_t fan_count = forces.cushion()->parameters().fans.size();

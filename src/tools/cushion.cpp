@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/ros/simulate.h"
 #include "hovercraft_sim/sim/hover_report.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
@@ -26,6 +27,7 @@ po::options_description options() {
       "KEY.PATH=VALUE: change the scenario first");
   add("json,j", po::bool_switch(), "one JSON object instead of text, numbers to the last bit");
   add("help,h", "this text");
+  add("version", "of the package, and of the physics");
   return options;
 }
 
@@ -40,6 +42,10 @@ int main(int argc, char** argv) {
               values);
     if (values.count("help") > 0) {
       std::cout << kUsage << options();
+      return 0;
+    }
+    if (values.count("version") > 0) {
+      std::cout << hovercraft::versionText("cushion") << '\n';
       return 0;
     }
     po::notify(values);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
@@ -24,6 +25,7 @@ po::options_description optionsOf(std::string& scenario, std::string& output,
   add("margin", po::value(&request.margin)->default_value(request.margin),
       "m of free cells around the obstacles");
   add("help,h", "this text");
+  add("version", "of the package, and of the physics");
   return options;
 }
 
@@ -44,6 +46,10 @@ int main(int argc, char** argv) {
       std::cout << "occupancy SCENARIO.yaml --output MAP.yaml\n"
                    "Writes the obstacles of a scenario as a map that map_server reads.\n\n"
                 << options;
+      return 0;
+    }
+    if (values.count("version") > 0) {
+      std::cout << hovercraft::versionText("occupancy") << '\n';
       return 0;
     }
     po::notify(values);

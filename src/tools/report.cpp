@@ -5,6 +5,8 @@
 #include <iostream>
 #include <unistd.h>
 
+#include "hovercraft_sim/sim/version.h"
+
 int main(int argc, char** argv) {
   namespace po = boost::program_options;
   try {
@@ -19,6 +21,7 @@ int main(int argc, char** argv) {
     add("png", po::value(&request.png), "folder for the plots as pictures");
     add("svg", po::value(&request.svg), "folder for the plots as drawings");
     add("help,h", "this text");
+    add("version", "of the package, and of the physics");
     po::positional_options_description positions;
     positions.add("bag", 1).add("other", 1);
     po::variables_map values;
@@ -30,6 +33,10 @@ int main(int argc, char** argv) {
                    "dimensions,\nspeeds, thrusts, contacts, energy. Of two bags also where and by "
                    "how much they differ.\n\n"
                 << options;
+      return 0;
+    }
+    if (values.count("version") > 0) {
+      std::cout << hovercraft::versionText("report") << '\n';
       return 0;
     }
     po::notify(values);

@@ -16,8 +16,10 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
   auto add = options.add_options();
   add("scenario", po::value(&request.scenario)->required(), "scenario file (YAML)");
   add("commands,c", po::value(&request.commands), "commands to fly (.csv or .bag)");
+  add("pilot,p", po::value(&request.pilots)->composing(),
+      "manoeuvres to fly (.yaml), instead of commands; one for each craft that has a pilot");
   add("duration,d", po::value(&request.duration),
-      "simulated seconds; default: to 1 s after the last command");
+      "simulated seconds; default: to 1 s after the last command or manoeuvre");
   add("output,o", po::value(&request.output)->required(),
       "states (.csv or .bag); - is CSV on the standard output");
   add("set,s", po::value(&request.sets)->composing(),
@@ -52,7 +54,8 @@ int main(int argc, char** argv) {
     po::store(po::command_line_parser(argc, argv).options(options).positional(positions).run(),
               values);
     if (values.count("help") > 0) {
-      std::cout << "simulate SCENARIO.yaml [--commands FILE] [--duration S] [--set KEY.PATH=VALUE "
+      std::cout << "simulate SCENARIO.yaml [--commands FILE | --pilot FILE] [--duration S] [--set "
+                   "KEY.PATH=VALUE "
                    "...] --output FILE\n"
                    "Runs a scenario as fast as it goes and writes the states of its vehicles.\n\n"
                 << options;

@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/ros/simulate.h"
 #include "hovercraft_sim/sim/velocity_parameters.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
@@ -27,9 +28,11 @@ int main(int argc, char** argv) {
     std::string scenario;
     std::string vehicle;
     po::options_description options("Options");
-    options.add_options()("scenario", po::value(&scenario)->required(), "scenario file (YAML)")(
-        "vehicle", po::value(&vehicle), "the craft; default: the first one by name")("help,h",
-                                                                                     "this text");
+    auto add = options.add_options();
+    add("scenario", po::value(&scenario)->required(), "scenario file (YAML)");
+    add("vehicle", po::value(&vehicle), "the craft; default: the first one by name");
+    add("help,h", "this text");
+    add("version", "of the package, and of the physics");
     po::positional_options_description positions;
     positions.add("scenario", 1);
     po::variables_map values;
@@ -39,6 +42,10 @@ int main(int argc, char** argv) {
       std::cout << "velocity_gains SCENARIO.yaml [--vehicle NAME]\n"
                    "Prints the parameters of velocity_controller for a craft, as YAML.\n\n"
                 << options;
+      return 0;
+    }
+    if (values.count("version") > 0) {
+      std::cout << hovercraft::versionText("velocity_gains") << '\n';
       return 0;
     }
     po::notify(values);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hovercraft_sim/math/floating_point_environment.h"
+
 namespace hovercraft {
 namespace {
 
@@ -16,6 +18,7 @@ constexpr double kFar = std::numeric_limits<double>::max();
 }  // namespace
 
 void RoofGround::add(const ConvexPolyhedron& body, const Pose& X_WO) {
+  const FloatingPointEnvironment environment;
   Roof roof = {kFar, kFar, -kFar, -kFar, {}, {}, {}};
   for (int i = 0; i < body.vertexCount(); ++i) {
     const Vector3 p = transform(X_WO, body.vertex(i));

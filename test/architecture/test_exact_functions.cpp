@@ -36,6 +36,8 @@ const std::vector<NamedPlace>& namedPlaces() {
       {"src/sim/compare.cpp", "sin", 5, "interpolates between samples of a finished run"},
       {"src/ros/flown_path.cpp", "hypot", 1, "the spacing of a line that is drawn"},
       {"src/ros/vehicle_markers.cpp", "acos", 1, "a right angle of a marker that is drawn"},
+      {"src/ros/robot_description.cpp", "atan2", 2, "the attitude of a fan that is drawn"},
+      {"src/ros/robot_description.cpp", "hypot", 1, "the attitude of a fan that is drawn"},
       {"src/report/figure_axes.cpp", "pow", 1, "round numbers beside a drawing"},
       {"src/report/figure_axes.cpp", "log10", 1, "round numbers beside a drawing"},
       {"src/report/figure_png.cpp", "hypot", 2, "pixels of a drawing"},

@@ -33,8 +33,9 @@ const std::map<std::string, Rule>& rules() {
                                  "tf2_msgs/",      "hovercraft_sim/", "visualization_msgs/"};
   static const Names of_ros = messages +
                               Names{"Eigen/", "fmt/", "gtest/", "ros/", "rosbag/", "tf2_ros/"} +
-                              Names{"XmlRpcValue.h", "bzlib.h", "boost/make_shared.hpp",
-                                    "diagnostic_updater/", "dynamic_reconfigure/"};
+                              Names{"XmlRpcValue.h",         "bzlib.h",
+                                    "boost/make_shared.hpp", "diagnostic_updater/",
+                                    "dynamic_reconfigure/",  "interactive_markers/"};
   static const std::map<std::string, Rule> table = {
       // boost/multiprecision: exp and sin that are the same on every machine; it needs no library.
       {"math",
@@ -48,18 +49,19 @@ const std::map<std::string, Rule>& rules() {
       {"world",
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact"}, {"Eigen/"}}},
       {"control", {{"math"}, {}}},
+      {"pilot", {{"math"}, {}}},
       {"sensors", {{"math", "geometry", "body", "cushion"}, {}}},
       {"sim",
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact", "control",
-         "sensors", "world"},
+         "pilot", "sensors", "world"},
         {"fmt/", "yaml-cpp/", "png.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros",
-       {{"math", "geometry", "body", "cushion", "hovercraft", "control", "sensors", "sim"},
-        of_ros}},
+       {{"math", "geometry", "body", "cushion", "hovercraft", "control", "pilot", "sensors", "sim"},
+        of_ros + Names{"unistd.h"}}},
       {"report",
        {{"math", "geometry", "body", "cushion", "hovercraft", "sensors", "sim", "ros"},
         of_ros + Names{"zlib.h"}}},
-      {"nodes", {{"sim", "ros"}, of_ros + Names{"unistd.h"}}},
+      {"nodes", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
       {"tools",
        {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };

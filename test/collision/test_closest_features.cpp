@@ -8,6 +8,7 @@
 #include "hovercraft_sim/math/constants.h"
 
 #include "../support/allocation_counter.h"
+#include "../support/share.h"
 #include "check_query.h"
 #include "random_bodies.h"
 
@@ -33,7 +34,7 @@ void setGap(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron&
 // overlapping; every other one starts from the pair of the query before.
 TEST(ClosestFeatures, AgreeWithBruteForceOverAllPairsOfFeatures) {
   RandomBodies random(2024);
-  for (int pair = 0; pair < 100; ++pair) {
+  for (int pair = 0; pair < testing::shareOf(100); ++pair) {
     const double size = std::pow(10.0, random.uniform(-1.0, 1.0));
     const ConvexPolyhedron A = randomBody(random, 200, 1.0);
     const ConvexPolyhedron B = randomBody(random, pair % 10 == 0 ? 200 : 30, size);
@@ -111,12 +112,14 @@ TEST(ClosestFeatures, DegenerateCasesEndAndAgreeWithBruteForce) {
                                          quaternionFromAxisAngle(Vector3(0.6, 0.8, 0.0), 1e-7),
                                          quaternionFromAxisAngle(Vector3::UnitX(), 1e-15)};
   const std::vector<Vector3> directions = {{1, 0, 0}, {0, 0, 1}, {1, 1, 0}, {1, 1, 1}, {0.5, 0, 1}};
+  int cases = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t k = i; k < bodies.size(); ++k) {
       const double reach = bodies[i].data().radius + bodies[k].data().radius;
       for (std::size_t turn = 0; turn < turns.size(); ++turn) {
         for (const Vector3& direction : directions) {
           for (const double gap : {1.0, 1e-3, 1e-9, 0.0, -1e-6}) {
+            if (cases++ % testing::kShare != 0) continue;
             const Pose X_WA;
             Pose X_WB{rotationMatrix(normalized(turns[turn])), Vector3(1.25 * reach * direction)};
             setGap(bodies[i], X_WA, bodies[k], X_WB, gap * reach);

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -85,6 +87,50 @@ TEST(Pads, ManyVerticesPushAsEachByItself) {
   EXPECT_NEAR(norm(all.force - sum.force), 0.0, 1e-11 * norm(sum.force));
   EXPECT_NEAR(norm(all.torque - sum.torque), 0.0, 1e-11 * norm(sum.torque));
   EXPECT_GT(norm(sum.force), 100.0);
+}
+
+/// A plane that does not say that it is one: each vertex asks it.
+class UnknownPlane final : public Ground {
+ public:
+  explicit UnknownPlane(const GroundPlane& plane) : ground_(plane) {}
+  void sample(const GroundQuery& query, GroundSample* samples) const override {
+    ground_.sample(query, samples);
+  }
+
+ private:
+  PlaneGround ground_;
+};
+
+TEST(Pads, BoxAroundThemDecidesAsEachVertexDoes) {
+  const std::vector<Vector3> vertices = {{0.18, 0.15, -0.042},  {0.18, -0.15, -0.042},
+                                         {-0.18, 0.15, -0.042}, {-0.18, -0.15, -0.042},
+                                         {0.1, 0.0, 0.05},      {0.0, 0.02, -0.04}};
+  const Pads pads(vertices, 50.0, PadParameters());
+  std::mt19937 random(20261127);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  int pressed = 0;
+  int clear = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Matrix3 slope = rotationFromRpy({0.3 * share(random), 0.3 * share(random), 0.0});
+    const GroundPlane plane = {slope.col(2), 0.5 * share(random)};
+    BodyMotion motion;
+    motion.R_WB = rotationFromRpy({0.3 * share(random), 0.3 * share(random), 3.0 * share(random)});
+    motion.v_WB_B = Vector3(share(random), share(random), share(random));
+    motion.w_WB_B = Vector3(share(random), share(random), share(random));
+    motion.u_B = motion.v_WB_B;
+    const Vector3 beside(share(random), share(random), 0.0);
+    const double height = 0.08 + 0.05 * share(random);
+    motion.p_WB =
+        beside +
+        ((plane.offset - dot(plane.nhat_W, beside)) / plane.nhat_W.z() + height) * Vector3::UnitZ();
+    const Wrench fast = pads.wrenchInBody(motion, PlaneGround(plane));
+    const Wrench slow = pads.wrenchInBody(motion, UnknownPlane(plane));
+    ASSERT_EQ(fast.force, slow.force) << i;
+    ASSERT_EQ(fast.torque, slow.torque) << i;
+    ++(slow.force.isZero() ? clear : pressed);
+  }
+  EXPECT_GT(pressed, 500);
+  EXPECT_GT(clear, 500);
 }
 
 }  // namespace

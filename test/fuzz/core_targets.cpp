@@ -4,7 +4,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include "hovercraft_sim/sim/commands_csv.h"
+#include "hovercraft_sim/sim/craft_pilot.h"
 #include "hovercraft_sim/sim/grey_image.h"
+#include "hovercraft_sim/sim/pilot_parser.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/states_csv.h"
@@ -118,6 +120,24 @@ void flyScenario(const std::string& input) {
   answer([&] {
     Simulation simulation(parsed(input));
     fly(simulation);
+  });
+}
+
+void flyPilot(const std::string& input) {
+  static const Scenario scenario = twoBodies(BodyModel::kPlanar, OrientationKind::kQuaternion);
+  answer([&] {
+    CraftPilot pilot(parsePilot(input, "input", scenario), scenario.step_ns);
+    Simulation simulation(scenario);
+    for (Tick tick = 0; tick < 200 && !pilot.isOver(); ++tick) {
+      if (pilot.isDue(tick)) {
+        const Motion motion = simulation.motion(pilot.vehicle());
+        simulation.push(
+            pilot.decide({tick, motion.p_WB, motion.q_WB, motion.twist.v_WB, motion.twist.w_WB}));
+      }
+      simulation.step();
+    }
+    pilot.giveUp("enough");
+    for (const FlownManoeuvre& flown : pilot.flown()) toText(flown);
   });
 }
 

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Writes test/fuzz/seeds/bag: small bags of every kind of message that the tools read, as long as they must be.
+"""Writes test/fuzz/seeds/{bag,report_bag,layout}: small bags of every kind of message that the tools read, as long as they must be, and messages alone.
 
 usage: make_bag_seeds.py FOLDER      (with the package's messages on PYTHONPATH)
 
-Unlike rosbag's they have no padding and no message definitions, so that a fuzzer seldom changes what does not matter.
+Unlike rosbag's they have no padding, and no message definitions but in report_bag, so that a fuzzer seldom changes what does not matter. FOLDER is
+test/fuzz/seeds.
 """
 
 import bz2
@@ -13,7 +14,7 @@ import struct
 import sys
 
 from geometry_msgs.msg import PoseStamped, TwistStamped
-from hovercraft_sim.msg import AppliedCommand, RunEvent, State, ThrustCommand
+from hovercraft_sim.msg import AppliedCommand, Cushion, CushionCell, RunEvent, State, ThrustCommand
 from nav_msgs.msg import Odometry
 import roslz4
 from std_msgs.msg import Float64, String
@@ -53,13 +54,13 @@ def time_of(stamp_ns):
     return struct.pack('<II', stamp_ns // 1000000000, stamp_ns % 1000000000)
 
 
-def bag(messages, compression='none', is_closed=True):
-    """The bytes of a bag with one chunk. @param messages (topic, stamp in ns, message)."""
+def bag(messages, compression='none', is_closed=True, is_defined=False):
+    """The bytes of a bag with one chunk. @param messages (topic, stamp in ns, message). @param is_defined: with the definitions of the messages."""
     topics = sorted({(topic, type(message)) for topic, _, message in messages}, key=lambda pair: pair[0])
     connections = {topic: struct.pack('<I', number) for number, (topic, _) in enumerate(topics)}
     described = b''.join(
         record({'op': b'\x07', 'conn': connections[topic], 'topic': topic.encode()},
-               fields({'type': kind._type.encode(), 'md5sum': kind._md5sum.encode(), 'message_definition': b''}))
+               fields({'type': kind._type.encode(), 'md5sum': kind._md5sum.encode(), 'message_definition': kind._full_text.encode() if is_defined else b''}))
         for topic, kind in topics)
     chunk, entries = described, {number: b'' for number in connections.values()}
     for topic, stamp_ns, message in messages:
@@ -116,6 +117,22 @@ def stamped(kind, tick):
     return message
 
 
+def layout(message):
+    text = io.BytesIO()
+    message.serialize(text)
+    # Without comments, which are most of it.
+    lines = [line.split('#')[0].rstrip() for line in message._full_text.splitlines()]
+    definition = '\n'.join(line for line in lines if line)
+    return '{}\n{}\n'.format(message._type, definition).encode() + b'\0' + text.getvalue()
+
+
+def write(folder, target, seeds, ending):
+    os.makedirs(os.path.join(folder, target), exist_ok=True)
+    for name, content in seeds.items():
+        with open(os.path.join(folder, target, name + ending), 'wb') as file:
+            file.write(content)
+
+
 def main():
     folder = sys.argv[1]
     recording = [('/hovercraft_sim/scenario', STEP_NS, String(SCENARIO)),
@@ -129,9 +146,13 @@ def main():
     seeds = {'recording': bag(recording), 'recording_bz2': bag(recording, 'bz2'), 'recording_lz4': bag(recording, 'lz4'),
              'hull': bag(hull), 'thrusts': bag(thrusts), 'not_closed': bag(recording, is_closed=False),
              'lengths': b'#ROSBAG V2.0\n' + b'\xff' * 15}
-    for name, content in seeds.items():
-        with open(os.path.join(folder, name + '.bag'), 'wb') as file:
-            file.write(content)
+    defined = {'recording': bag(recording, is_defined=True), 'hull': bag(hull, 'lz4', is_defined=True),
+               'thrusts': bag(thrusts + hull[:2], is_defined=True)}
+    layouts = {'pose': stamped(PoseStamped, 1), 'odometry': stamped(Odometry, 1), 'state': state(1), 'event': event(1, RunEvent.RESET),
+               'text': String('text'), 'cushion': Cushion(cells=[CushionCell(), CushionCell()])}
+    write(folder, 'bag', seeds, '.bag')
+    write(folder, 'report_bag', defined, '.bag')
+    write(folder, 'layout', {name: layout(message) for name, message in layouts.items()}, '')
 
 
 if __name__ == '__main__':

@@ -22,7 +22,13 @@ void readCommandsCsv(const std::string& input);
 void readStatesCsv(const std::string& input);
 /// A snapshot without its scenario, which is added, and with whatever hash, which is set right.
 void readSnapshot(const std::string& input);
+/// A file of manoeuvres, which is then flown for a while.
+void flyPilot(const std::string& input);
 void readBag(const std::string& input);
+/// A bag as `report` makes a page of it.
+void reportBag(const std::string& input);
+/// The type of a message, a line end, its definition, a byte of 0, and a message.
+void readLayout(const std::string& input);
 /// An image of heights, PGM or PNG.
 void readImage(const std::string& input);
 /// As OBJ and as STL, as a surface and as a body.
@@ -34,7 +40,10 @@ inline const std::vector<Target>& targets() {
                                           {"commands_csv", readCommandsCsv},
                                           {"states_csv", readStatesCsv},
                                           {"snapshot", readSnapshot},
+                                          {"pilot", flyPilot},
                                           {"bag", readBag},
+                                          {"report_bag", reportBag},
+                                          {"layout", readLayout},
                                           {"image", readImage},
                                           {"mesh", readMesh}};
   return all;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/files.h"
+#include "../support/share.h"
 #include "targets.h"
 
 /// What the fuzzers start from, and what they once found (test/fuzz/found), in every build that
@@ -44,7 +45,7 @@ TEST_P(Fuzzed, PartsOfSeedsAndSeedsWithAWrongByteAreAnswered) {
   for (const std::string& file : filesIn(std::string("test/fuzz/seeds/") + GetParam().name)) {
     SCOPED_TRACE(file);
     const std::string seed = testing::contentOf(file);
-    const std::size_t stride = 1 + seed.size() / 40;
+    const std::size_t stride = testing::kShare * (1 + seed.size() / 40);
     for (std::size_t at = 0; at < seed.size(); at += stride) {
       EXPECT_NO_THROW(GetParam().run(seed.substr(0, at))) << at;
       for (const char byte : {'\0', '\x7f', '\xff'}) {

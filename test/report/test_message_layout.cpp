@@ -47,7 +47,7 @@ TEST(MessageLayout, WhatHoldsNoNumbersIsNotGoneThrough) {
     std::string definition;
     for (int level = 1; level <= 31; ++level) {
       const std::string next = "p/L" + std::to_string(level) + array;
-      definition += next + " a\n" + next + " b\n";
+      definition.append(next).append(" a\n").append(next).append(" b\n");
       definition += std::string(80, '=') + "\nMSG: p/L" + std::to_string(level) + "\n";
     }
     const MessageLayout layout("p/L0", definition);

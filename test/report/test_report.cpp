@@ -92,6 +92,32 @@ const RunPanel* panelOf(const std::vector<RunPanel>& panels, const std::string& 
   return nullptr;
 }
 
+TEST_F(Report, ShowsTheManoeuvresThatAPilotHasFlown) {
+  SimulateRequest request;
+  request.scenario = folder_.write("scenario.yaml", hovercraft::testing::oneCraftYaml());
+  request.pilots = {folder_.write("pilot.yaml",
+                                  "manoeuvres:\n  - {name: it, kind: stop, throttle: {rear: 2}, "
+                                  "approach: 1, levels: {rear: -2}}\n"
+                                  "  - {kind: stop, levels: {rear: 0}, longest: 1}\n")};
+  request.output = folder_.file("piloted.bag");
+  std::ostringstream messages;
+  simulate(request, messages);
+  const RunData data = run(request.output);
+  ASSERT_EQ(data.manoeuvres.size(), 2U);
+  const RunManoeuvre& stop = data.manoeuvres[0];
+  EXPECT_EQ(stop.craft, "craft");
+  EXPECT_EQ(stop.name, "it");
+  EXPECT_EQ(stop.kind, "stop");
+  EXPECT_TRUE(stop.is_complete);
+  // 2 N on 2 kg: 1 m/s after 1 s from the first decision, at 0.01 s, then back to 0.02 m/s.
+  EXPECT_NEAR(1e-9 * static_cast<double>(stop.execute_ns), 1.01, 1e-6);
+  EXPECT_NEAR(1e-9 * static_cast<double>(stop.end_ns), 1.99, 1e-6);
+  EXPECT_NE(stop.text.find("head reach: 0.49"), std::string::npos) << stop.text;
+  EXPECT_NE(messages.str().find(stop.text), std::string::npos);
+  EXPECT_FALSE(data.manoeuvres[1].is_complete);
+  EXPECT_NE(made(request.output).find("\"kind\":\"stop\""), std::string::npos);
+}
+
 TEST_F(Report, ABagOfPosesAloneHasAWayAndItsSpeeds) {
   const RunData data = run(onlyPoses("/mocap/car/pose_of_it"));
   ASSERT_EQ(data.bodies.size(), 1U);

@@ -74,9 +74,17 @@ TEST(CushionMessage, IsInTheBagOfSimulateAndInItsCsv) {
   rosbag::View view(bag, rosbag::TopicQuery("/rc5/cushion"));
   EXPECT_EQ(view.size(), 10U);
   const std::string csv = hovercraft::testing::contentOf(request.cushion);
-  EXPECT_EQ(csv.rfind("time,vehicle,cell,pressure,gap,flow,force\n0,rc5,0,", 0), 0U);
+  EXPECT_EQ(csv.rfind("time,vehicle,cell,pressure,gap,flow,force,fan_speed,power\n0,rc5,0,", 0),
+            0U);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 11 * 4);
   EXPECT_NE(csv.find("\n0.1,rc5,3,"), std::string::npos);
+  // Each cell gets a quarter of 30.7 W from a fan at its nominal speed.
+  std::istringstream last(csv.substr(csv.find("\n0.1,rc5,3,") + 1));
+  std::vector<std::string> fields;
+  for (std::string field; std::getline(last, field, ',');) fields.push_back(field);
+  ASSERT_EQ(fields.size(), 9U);
+  EXPECT_EQ(fields[7], "1");
+  EXPECT_NEAR(std::stod(fields[8]), 30.7 / 4.0, 0.1);
 }
 
 TEST(CushionMessage, CsvOfCellsWithoutACushionIsRefused) {

@@ -56,6 +56,36 @@ class Simulate : public ::testing::Test {
   TestFolder folder_;
 };
 
+TEST_F(Simulate, APilotFliesWithoutCommandsAndEndsTheRun) {
+  SimulateRequest request = requestOf(oneCraftYaml());
+  const std::string plan =
+      folder_.write("plan.yaml", "manoeuvres: [{kind: ramp, to: {rear: 4}, duration: 1}]");
+  request.pilots = {plan};
+  EXPECT_NE(messagesOf(request).find("ramp (ramp), first execute at 0.01 s, end at 1.01 s"),
+            std::string::npos);
+  // A second after the last manoeuvre.
+  EXPECT_EQ(hovercraft::readStatesCsv(request.output).front().samples.back().time_ns, 2010000000);
+  request.duration = "0.5";
+  EXPECT_NE(messagesOf(request).find("the run ended before the last manoeuvre did"),
+            std::string::npos);
+}
+
+TEST_F(Simulate, APilotThatDoesNotFitIsRefusedBeforeAnythingIsWritten) {
+  SimulateRequest request = requestOf(oneCraftYaml(), "time,rear,left,right\n0,1,0,0\n");
+  const std::string plan =
+      folder_.write("plan.yaml", "manoeuvres: [{kind: ramp, to: {rear: 11}, duration: 1}]");
+  request.pilots = {plan};
+  EXPECT_EQ(errorOf(request), "--pilot: must not stand beside --commands");
+  request.commands.clear();
+  EXPECT_NE(errorOf(request).find("would set rear to 11: must be -10 to 10"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(request.output));
+  request.output = plan;
+  EXPECT_NE(errorOf(request).find("--output"), std::string::npos);
+  request.pilots = {folder_.file("missing.yaml")};
+  request.output = folder_.file("out.csv");
+  EXPECT_NE(errorOf(request).find("missing.yaml"), std::string::npos);
+}
+
 TEST_F(Simulate, TheTestbedCraftFollowsItsClosedForm) {
   // MVWT, both engines full: u = 2 (1 - exp(-t/τ)), x = 2 (t - τ (1 - exp(-t/τ))), τ = m/c.
   SimulateRequest request;
@@ -211,7 +241,8 @@ TEST(ProgressBar, FillsAsItGoesAndIsWiped) {
 TEST_F(Simulate, EveryErrorOfARequestNamesWhatIsWrong) {
   const std::string yaml = oneCraftYaml();
   SimulateRequest request = requestOf(yaml);
-  EXPECT_EQ(errorOf(request), "--duration is missing: without --commands it must be given");
+  EXPECT_EQ(errorOf(request),
+            "--duration is missing: without --commands and --pilot it must be given");
   const std::vector<std::pair<std::string, std::string>> durations = {
       {"x", "--duration = x: must be a number of seconds"},
       {"nan", "--duration = nan: must be a number of seconds"},

@@ -83,7 +83,8 @@ TEST_F(Tools, SimulateAndCompareWorkTogether) {
 }
 
 TEST_F(Tools, EachSaysItsVersionAndThatOfThePhysics) {
-  for (const char* tool : {"closest", "compare", "mass_properties", "replay", "simulate"}) {
+  for (const char* tool : {"closest", "compare", "cushion", "mass_properties", "occupancy",
+                           "replay", "report", "simulate", "velocity_gains"}) {
     const Outcome outcome = run(std::string(tool) + " --version");
     EXPECT_EQ(outcome.status, 0) << tool;
     EXPECT_EQ(outcome.output, std::string(tool) + " of hovercraft_sim 0.2.0, physics version 1\n");
@@ -306,7 +307,7 @@ TEST_F(Tools, ErrorsAreOneLineAndStatusOne) {
       {"simulate -o {}o.csv", "simulate: the option '--scenario' is required but missing\n"},
       {"simulate {}s.yaml", "simulate: the option '--output' is required but missing\n"},
       {"simulate {}s.yaml -o {}o.csv",
-       "simulate: --duration is missing: without --commands it must be given\n"},
+       "simulate: --duration is missing: without --commands and --pilot it must be given\n"},
       {"simulate {}s.yaml -o {}o.csv -d 1 --every x",
        "simulate: the argument ('x') for option '--every' is invalid\n"},
       {"simulate {}s.yaml -o {}o.csv -d 1 --speed 2", "simulate: unrecognised option '--speed'\n"},

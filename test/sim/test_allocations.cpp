@@ -44,7 +44,7 @@ long allocationsWhileDriven(const Scenario& scenario) {
 }
 
 TEST(Allocations, NoneInAStepOnACushionOverAnyGround) {
-  for (const char* name : {"rc5", "rough", "ramp"}) {
+  for (const char* name : {"rc5", "rough", "ramp", "lift_fan"}) {
     Simulation simulation(loadScenario("config/" + std::string(name) + ".yaml"));
     for (int n = 0; n < 300; ++n) simulation.step();
     const long before = allocations;

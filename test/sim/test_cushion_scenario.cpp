@@ -65,18 +65,8 @@ constexpr const char* kGround =
     "ground:\n  plane: {height: 0.25, normal: [0, 0, 1]}\n  pads: {sink: 0.002, damping: 8, "
     "friction: 0.4, slip_speed: 0.03}\n";
 
-/// What a scenario that is in order says, line by line.
-std::vector<std::string> notesOn(const std::string& text) {
-  std::vector<std::string> notes;
-  ScenarioSource source;
-  source.name = "test.yaml";
-  source.note = [&](const std::string& note) { notes.push_back(note); };
-  parseScenario(text, source);
-  return notes;
-}
-
 void expectNote(const std::string& text, const std::string& part) {
-  const std::vector<std::string> notes = notesOn(text);
+  const std::vector<std::string> notes = testing::notesOn(text);
   const bool is_there = std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
     return note.find(part) != std::string::npos;
   });
@@ -142,7 +132,7 @@ TEST(CushionScenario, ShippedRc5SwingsAsItsCardSays) {
 }
 
 TEST(CushionScenario, ShippedScenesSayNothing) {
-  for (const std::string name : {"rc5", "ubc_plenum", "ramp", "rough"}) {
+  for (const std::string name : {"rc5", "ubc_plenum", "ramp", "rough", "lift_fan"}) {
     SCOPED_TRACE(name);
     std::vector<std::string> notes;
     loadScenario("config/" + name + ".yaml", {}, {},
@@ -180,7 +170,7 @@ TEST(CushionScenario, AirThatSwingsByItselfIsRefusedWithItsMargin) {
 }
 
 TEST(CushionScenario, WhatFliesBadlyIsSaidWithItsNumber) {
-  EXPECT_EQ(notesOn(cushionText()).size(), 0U);
+  EXPECT_EQ(testing::notesOn(cushionText()).size(), 0U);
   expectNote(with(cushionText(), "speed: 1}", "speed: 0.5}"),
              "carry at most 25.25 N of the weight of 50.5 N");
   expectNote(with(cushionText(), "stiffness: 2500", "stiffness: 5000"),
@@ -217,6 +207,61 @@ TEST(CushionScenario, FanMayTurnAtSpeedsOverTime) {
   expectComplaint(with(text, "time: 3", "time: 1"), "greater than the time before it");
   expectComplaint(with(text, "speeds:", "speed: 1, speeds:"), "beside speed");
   expectComplaint(with(cushionText(), "speed: 1}", "speeds: []}"), "not empty");
+}
+
+/// rc5 in words with its fan turned by an actuator.
+std::string liftFanText() {
+  return with(with(cushionText(), "intake: [0, 0, 0.05], speed: 1}", "lift_fan: blower}"),
+              "    engines:\n",
+              "    actuators:\n      blower: {kind: lift_fan, position: [0.1, 0, 0.05], "
+              "time_constant: 0.2}\n      side: {kind: fan, position: [0, 0, 0], direction: [1, 0, "
+              "0], min_thrust: 0, max_thrust: 1}\n    engines:\n");
+}
+
+TEST(CushionScenario, FanMayBeTurnedByAnActuator) {
+  const Scenario scenario = parsed(liftFanText());
+  const CushionFan& fan = scenario.vehicles[0].cushion->fans[0];
+  EXPECT_EQ(fan.lift_fan, "blower");
+  EXPECT_EQ(fan.fullSpeed(), 1.0);
+  EXPECT_EQ(fan.p_HI, Vector3(0.1, 0.0, 0.05));  // where the actuator is
+  const std::string yaml = toYaml(scenario);
+  EXPECT_EQ(toYaml(parsed(yaml)), yaml);
+  const std::string ducted =
+      with(liftFanText(), "lift_fan: blower}", "lift_fan: blower, intake: [1, 2, 3]}");
+  EXPECT_EQ(parsed(ducted).vehicles[0].cushion->fans[0].p_HI, Vector3(1.0, 2.0, 3.0));
+  EXPECT_EQ(testing::notesOn(liftFanText()).size(), 0U);
+}
+
+TEST(CushionScenario, ActuatorOfAFanIsALiftFanThatTurnsItAlone) {
+  const std::string text = liftFanText();
+  expectComplaint(
+      with(text, "lift_fan: blower}", "lift_fan: bellows}"),
+      "fans.lift.lift_fan = bellows: must name an actuator of the craft, of kind: lift_fan");
+  expectComplaint(with(text, "lift_fan: blower}", "lift_fan: side}"), "of kind: lift_fan");
+  expectComplaint(with(text, "lift_fan: blower}", "lift_fan: rear}"), "of kind: lift_fan");
+  expectComplaint(with(text, "lift_fan: blower}", "lift_fan: blower, speed: 1}"),
+                  "fans.lift.speed = 1: must not stand beside lift_fan");
+  expectComplaint(
+      with(text, "lift_fan: blower}", "lift_fan: blower, speeds: [{time: 0, speed: 1}]}"),
+      "must not stand beside lift_fan");
+  expectComplaint(with(text, "lift_fan: blower}", "speed: 1}"),
+                  "actuators.blower = {kind: lift_fan, ");
+  expectComplaint(with(text, "lift_fan: blower}", "speed: 1}"),
+                  "feeds no cell: a fan of the cushion must say lift_fan: blower");
+  expectComplaint(with(text, "        lift:",
+                       "        aft: {shutoff: 9, curve: 1, lift_fan: blower}\n        lift:"),
+                  "turns another fan already");
+  expectComplaint(with(cushionText(), "speed: 1}", "lift_fan: blower}"), "of kind: lift_fan");
+}
+
+TEST(CushionScenario, FanThatFeedsNothingIsSaid) {
+  expectNote(with(with(cushionText(),
+                       "        lift:", "        aft: {shutoff: 900, curve: 1e6}\n        lift:"),
+                  "height: 0.05}", "height: 0.05, fan: lift}"),
+             "fans.aft = {shutoff: 900, curve: 1e6}: feeds no cell");
+  expectNote(with("step_size: 0.01\nmodel: planar\nvehicles:\n" + craftYaml("craft"),
+                  "    engines:\n", "    actuators: {lift: {kind: lift_fan}}\n    engines:\n"),
+             "actuators.lift = {kind: lift_fan}: the craft has no cushion that it feeds");
 }
 
 TEST(GroundScenario, PlaneMustPointUpAndStandAlone) {

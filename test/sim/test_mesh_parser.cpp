@@ -17,6 +17,7 @@ namespace {
 using testing::complaintAbout;
 using testing::kMassByNumbers;
 using testing::messageOf;
+using testing::notesOn;
 using testing::parsed;
 using testing::validScenario;
 using testing::with;
@@ -29,14 +30,6 @@ std::string withMeshKeys(const std::string& keys, const std::string& mass = "mas
 
 std::string withVisual(const std::string& visual) {
   return with(validScenario(), kMassByNumbers, kMassByNumbers + ("    visual: " + visual + "\n"));
-}
-
-std::vector<std::string> meshNotesOn(const std::string& text) {
-  std::vector<std::string> notes;
-  ScenarioSource source{"test.yaml", "test/data", {}};
-  source.note = [&notes](const std::string& note) { notes.push_back(note); };
-  parseScenario(treeOf(text, "test.yaml"), source);
-  return notes;
 }
 
 // A box of a x b x c: I_xx = m (b² + c²)/12.
@@ -89,16 +82,16 @@ TEST(MeshParser, HullsAndObstaclesHaveAScale) {
 }
 
 TEST(MeshParser, ABodyThatWeighsWhatNoCraftWeighsIsAskedAbout) {
-  EXPECT_TRUE(meshNotesOn(withMeshKeys("")).empty());
-  EXPECT_TRUE(meshNotesOn(withMeshKeys("", "density: 1000")).empty());
-  const std::vector<std::string> large = meshNotesOn(withMeshKeys(", scale: 600", "density: 100"));
+  EXPECT_TRUE(notesOn(withMeshKeys("")).empty());
+  EXPECT_TRUE(notesOn(withMeshKeys("", "density: 1000")).empty());
+  const std::vector<std::string> large = notesOn(withMeshKeys(", scale: 600", "density: 100"));
   ASSERT_EQ(large.size(), 1U);
   EXPECT_EQ(large[0],
             "test.yaml: vehicles.alpha.parts[0].mesh = {file: cube.obj, scale: 600}: encloses "
             "2.16e+08 m^3 and weighs 2.16e+10 kg, which no craft does: is the file in millimetres? "
             "Then take the scale 0.001");
-  EXPECT_EQ(meshNotesOn(withMeshKeys(", scale: 600")).size(), 1U);
-  const std::vector<std::string> small = meshNotesOn(withMeshKeys(", scale: 0.001"));
+  EXPECT_EQ(notesOn(withMeshKeys(", scale: 600")).size(), 1U);
+  const std::vector<std::string> small = notesOn(withMeshKeys(", scale: 0.001"));
   ASSERT_EQ(small.size(), 1U);
   EXPECT_NE(small[0].find("is its scale right, and the file not in metres already?"),
             std::string::npos);
@@ -119,7 +112,7 @@ TEST(MeshParser, WhatWasMadeOfAFileIsSaidWithTheScenario) {
   const testing::TestFolder folder;
   const std::string path = folder.write(
       "box.stl", testing::stlBytes(loadClosedMesh("test/data/tetrahedron.stl").mesh) + "more");
-  const std::vector<std::string> notes = meshNotesOn(with(
+  const std::vector<std::string> notes = notesOn(with(
       validScenario(), kMassByNumbers, "    parts: [{mesh: {file: " + path + "}, mass: 6}]\n"));
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_EQ(notes[0],

@@ -14,6 +14,8 @@
 
 #include "hovercraft_sim/sim/number_text.h"
 
+#include "../support/share.h"
+
 namespace hovercraft {
 namespace {
 
@@ -99,7 +101,7 @@ TEST(AppendNumber, WritesTheShortestTextThatIsReadAsTheNumber) {
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> mantissa(-10.0, 10.0);
   std::uniform_int_distribution<int> exponent(-14, 18);
-  for (int n = 0; n < 100000; ++n) {
+  for (int n = 0; n < testing::shareOf(100000); ++n) {
     const double number = mantissa(random) * std::pow(10.0, exponent(random));
     ASSERT_EQ(faultOf(textOf(number), number), "") << "sample " << n << " of seed " << kSeed;
   }
@@ -138,7 +140,7 @@ TEST(AppendNumber, GivesBackWhatWasWritten) {
     }
   }
   std::mt19937_64 random(kSeed);
-  for (int n = 0; n < 100000; ++n) {
+  for (int n = 0; n < testing::shareOf(100000); ++n) {
     const std::string text =
         fmt::format("{}.{}", random() % 10000000, random() % 10000000 * 10 + 1 + random() % 9);
     ASSERT_EQ(textOf(std::strtod(text.c_str(), nullptr)), text);
@@ -166,7 +168,7 @@ TEST(AppendNumber, WritesWhatIsNotFiniteAsAWord) {
 
 TEST(ParseNumber, GivesBackEveryBitOfWhatWasWritten) {
   std::mt19937_64 random(kSeed);
-  for (int n = 0; n < 100000; ++n) {
+  for (int n = 0; n < testing::shareOf(100000); ++n) {
     const std::uint64_t bits = random();
     double number = 0.0;
     std::memcpy(&number, &bits, sizeof(number));

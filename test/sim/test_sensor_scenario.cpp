@@ -176,8 +176,7 @@ TEST(SensorScenario, EveryRuleOfALaserToo) {
       {"range_max: 5", "range_max: 0", "s.range_max = 0: must be greater than 0"},
       {"range_max: 5", "latency: 60, range_max: 5", "nothing was thrown"},
       {"beams: 3", "latency: 60, beams: 20000",
-       "s.latency = 60: must be so short that at most 500000 numbers of all sensors are on their "
-       "way"},
+       "s.latency = 60: must be so short that at most 600000 numbers are on their way"},
   };
   for (const auto& [from, to, message] : rules) {
     EXPECT_NE(changed(from, to).find(message), std::string::npos) << to << "\n"

@@ -15,6 +15,7 @@
 #include "hovercraft_sim/sim/snapshot.h"
 
 #include "../support/scenario_text.h"
+#include "../support/share.h"
 
 /// What stands in a snapshot with a right hash becomes an index, a pose or a time: each field is
 /// given bad values, and either it is refused or the run goes on.
@@ -256,8 +257,10 @@ TEST_P(SnapshotFields, EachBadNumberIsRefusedOrTheRunGoesOn) {
                                         0,
                                         -1,
                                         -2};
+  int cases = 0;
   for (const Field& field : fieldsOf(simulation_).all) {
     const auto check = [&](const auto& set, auto value) {
+      if (cases++ % testing::kShare != 0) return;
       SimulationState state = simulation_.state();
       set(state, value);
       const std::string outcome = outcomeOf(scenario_, textOf(scenario_, state));
@@ -284,10 +287,12 @@ TEST_P(SnapshotFields, EachBadWordIsRefusedOrChangesNothing) {
   std::mt19937_64 random(20261127);
   const std::size_t end = text.find("scenario: |");
   const std::string digits = "0123456789+-.e";
+  int cases = 0;
   for (std::size_t begin = text.find_first_of(digits); begin < end;
        begin = text.find_first_of(digits, begin)) {
     const std::size_t length = text.find_first_not_of(digits, begin) - begin;
     for (int n = 0; n < 3; ++n) {
+      if (cases++ % testing::kShare != 0) continue;
       std::string changed = text;
       const std::string& word = words[random() % words.size()];
       changed.replace(begin, length, word);
@@ -306,7 +311,8 @@ TEST_P(SnapshotFields, EachBadWordIsRefusedOrChangesNothing) {
 TEST_P(SnapshotFields, EachPartOfATextIsRefused) {
   const std::string text = toSnapshot(simulation_);
   // What ends in its last line break says the same without it.
-  for (std::size_t length = 0; length < text.size() - 1; length += 1 + length % 5) {
+  for (std::size_t length = 0; length < text.size() - 1;
+       length += testing::kShare * (1 + length % 5)) {
     EXPECT_EQ(outcomeOf(scenario_, text.substr(0, length)).rfind("refused: ", 0), 0U) << length;
   }
   for (const char* more : {"x", "x: 1\n", "tick: 3\n", "---\ntick: 3\n", "  more of the scenario\n",

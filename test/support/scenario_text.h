@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -63,6 +64,17 @@ inline Scenario parsed(const std::string& text) {
   source.name = "test.yaml";
   source.directory = "test/data";
   return parseScenario(text, source);
+}
+
+/// What a scenario that is in order says, line by line.
+inline std::vector<std::string> notesOn(const std::string& text) {
+  std::vector<std::string> notes;
+  ScenarioSource source;
+  source.name = "test.yaml";
+  source.directory = "test/data";
+  source.note = [&notes](const std::string& note) { notes.push_back(note); };
+  parseScenario(text, source);
+  return notes;
 }
 
 /// What parsing says.

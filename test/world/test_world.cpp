@@ -9,6 +9,8 @@
 
 #include "hovercraft_sim/sim/state_hash.h"
 
+#include "../support/share.h"
+
 namespace hovercraft {
 namespace {
 
@@ -68,7 +70,7 @@ TEST(World, TenStackedBoxesStandForAMinute) {
   world.world();
   const std::vector<BodyState> start = world.states;
   double farthest = 0.0;
-  for (int second = 0; second < 60; ++second) {
+  for (int second = 0; second < testing::shareOf(60); ++second) {
     world.step(250);
     EXPECT_GT(world.world().leastGap(world.states), -kEpsilon);
     for (std::size_t i = 0; i < start.size(); ++i) {

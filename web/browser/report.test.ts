@@ -99,6 +99,51 @@ test('a click on a contact goes to its time', async () => {
   await page.close();
 });
 
+test('a click on the time line beside a contact goes to its time', async () => {
+  const { page } = await open('pen.html');
+  const contact = Number.parseFloat((await page.locator('tr.clickable button').first().textContent()) ?? '');
+  const slider = page.locator('.track input');
+  const box = await slider.boundingBox();
+  assert.ok(box);
+  const end = Number(await slider.getAttribute('max'));
+  await page.mouse.click(box.x + 8 + ((box.width - 16) * contact) / end + 3, box.y + box.height / 2);
+  await waitForClock(page, (now) => Math.abs(now - contact) < 0.0051);
+  await page.close();
+});
+
+test('a dark page is printed dark on white, with every plot', async () => {
+  const { page, complaints } = await open('pen.html');
+  await page.keyboard.press('l');
+  await page.waitForFunction(() => document.documentElement.dataset['theme'] === 'dark');
+  const before = await page.locator('.uplot').count();
+  await page.emulateMedia({ media: 'print' });
+  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+  const [text, background, timeline] = await page.evaluate(() => [
+    getComputedStyle(document.querySelector('.card h2') ?? document.body).color,
+    getComputedStyle(document.body).backgroundColor,
+    getComputedStyle(document.querySelector('.timeline') ?? document.body).display,
+  ]);
+  assert.equal(text, 'rgb(27, 36, 48)');
+  assert.equal(background, 'rgb(255, 255, 255)');
+  assert.equal(timeline, 'none');
+  assert.equal(await page.locator('.uplot').count(), await page.locator('figure.panel').count());
+  assert.ok(before <= (await page.locator('.uplot').count()));
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test('a manoeuvre that was flown has a card that goes to its first execute', async () => {
+  const { page, complaints } = await open('manoeuvres.html');
+  const card = page.locator('.card', { hasText: 'turning_circle' });
+  assert.match((await card.textContent()) ?? '', /tactical diameter[\d.]+ m/);
+  const time = Number.parseFloat((await card.locator('button').textContent()) ?? '');
+  assert.ok(time > 4.9);
+  await card.locator('button').click();
+  await waitForClock(page, (now) => Math.abs(now - time) < 0.01);
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
 test('on a telephone nothing is wider than the screen', async () => {
   const { page, complaints } = await open('two.html', 390);
   const width = await page.evaluate(() => document.documentElement.scrollWidth);

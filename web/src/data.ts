@@ -58,6 +58,17 @@ interface PackedPanel {
   bands: Band[];
 }
 
+/** A manoeuvre that a pilot has flown; `time` is its first execute, `text` what it came to, a line each. */
+export interface Manoeuvre {
+  craft: string;
+  name: string;
+  kind: string;
+  complete: boolean;
+  time: number;
+  end: number;
+  text: string;
+}
+
 interface PackedBody {
   name: string;
   craft: boolean;
@@ -85,6 +96,7 @@ interface PackedRun {
   bodies: PackedBody[];
   obstacles: { name: string; shapes: Shape[] }[];
   contacts: Contact[];
+  manoeuvres: Manoeuvre[];
   panels: PackedPanel[];
   marks: { time: number; text: string }[];
   facts: [string, string][];

@@ -8,7 +8,7 @@ import { PlotBoard, type PlotRequest } from './plots';
 import { Player } from './player';
 import { SceneView } from './scene';
 import style from './style.css';
-import { contactsSection, differenceSection, ledgerSection, runSection } from './tables';
+import { contactsSection, differenceSection, ledgerSection, manoeuvreSection, runSection } from './tables';
 import { seriesColour, currentTheme, onThemeChange, toggleTheme } from './theme';
 import { Timeline } from './timeline';
 import uplotStyle from 'uplot/dist/uPlot.min.css';
@@ -86,6 +86,9 @@ function tablesOf(report: Report, player: Player): HTMLElement {
     { class: 'cards' },
     ...report.comparison.map((difference) => differenceSection(difference, player)),
     ...(first && first.contacts.length > 0 ? [contactsSection(first, player)] : []),
+    ...report.runs.flatMap((run, i) =>
+      run.manoeuvres.map((each) => manoeuvreSection(each, report.runs.length > 1 ? `${'AB'[i] ?? ''}: ` : '', player)),
+    ),
     ...(first?.bodies ?? []).flatMap((body) => (body.ledger ? [ledgerSection(body, body.ledger)] : [])),
     ...report.runs.map((run) => runSection(run, report.stride)),
   );

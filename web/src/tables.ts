@@ -1,6 +1,7 @@
-import type { Body, Contact, Difference, Ledger, Run } from './data';
+import type { Body, Contact, Difference, Ledger, Manoeuvre, Run } from './data';
 import { element } from './dom';
 import { numberText, timeText } from './format';
+import { measuresOf } from './measures';
 import type { Player } from './player';
 
 const MOST_ROWS = 500;
@@ -44,6 +45,17 @@ export function contactsSection({ contacts }: Run, player: Player): HTMLElement 
   });
   const made = section('Contacts', table(['time', 'kind', 'bodies', 'impulse (N s)', 'at (m)'], rows));
   if (contacts.length > MOST_ROWS) made.append(element('p', {}, `The first ${MOST_ROWS} of ${contacts.length}.`));
+  return made;
+}
+
+/** What a manoeuvre came to; a click goes to its first execute. */
+export function manoeuvreSection({ craft, name, kind, complete, time, end, text }: Manoeuvre, whose: string, player: Player): HTMLElement {
+  const button = element('button', { type: 'button', class: 'link' }, timeText(time));
+  button.addEventListener('click', () => { player.seek(time); });
+  const list = element('dl', {}, ...measuresOf(text).flatMap(([label, value]) => [element('dt', {}, label), element('dd', {}, value)]));
+  const made = section(`${whose}${name}`, element('p', {}, `${craft}, ${kind}: `, button, ` to ${timeText(end)}`));
+  if (!complete) made.append(element('p', { class: 'note' }, text.split('\n')[0] ?? ''));
+  made.append(list);
   return made;
 }
 

@@ -1,9 +1,12 @@
 import type { Run } from './data';
 import { element, fitCanvas } from './dom';
 import { timeText } from './format';
+import { nearestOf } from './nearest';
 import type { Player } from './player';
 import { currentTheme, onThemeChange } from './theme';
 
+const KNOB = 8; // px, half of the slider's knob
+const REACH = 6; // px, from a mark that a click goes to
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
 
 /** The bar with which a run is played: a button, a slider with the contacts on it, a speed. */
@@ -33,6 +36,7 @@ export class Timeline {
     );
     this.button.addEventListener('click', () => { player.toggle(); });
     this.slider.addEventListener('input', () => { player.seek(Number(this.slider.value)); });
+    this.listenToMarks();
     this.speed.addEventListener('change', () => { player.setSpeed(Number(this.speed.value)); });
     player.onTime(() => { this.isStale = true; });
     player.onChange(() => { this.showState(); });
@@ -40,6 +44,20 @@ export class Timeline {
     onThemeChange(() => { this.drawMarks(); });
     this.showTime(0);
     this.showState();
+  }
+
+  /** A click beside a mark goes to it: to a contact, a manoeuvre, what else happened. */
+  private listenToMarks(): void {
+    const { contacts = [], manoeuvres = [], marks = [] } = this.run ?? {};
+    const times = [...contacts, ...manoeuvres, ...marks].map(({ time }) => time);
+    let pressed = NaN;
+    this.slider.addEventListener('pointerdown', (event) => { pressed = event.clientX; });
+    this.slider.addEventListener('click', (event) => {
+      if (!(Math.abs(event.clientX - pressed) < 3)) return; // it was drawn along
+      const pixel = this.player.end / Math.max(1, this.slider.clientWidth - 2 * KNOB);
+      const time = nearestOf(times, Number(this.slider.value), REACH * pixel);
+      if (time !== undefined) this.player.seek(time);
+    });
   }
 
   /** Shows the time, if it has changed. */
@@ -71,7 +89,7 @@ export class Timeline {
     const context = fitCanvas(this.marks);
     if (!context || !this.run) return;
     const theme = currentTheme();
-    const room = 8; // px, half of the slider's knob
+    const room = KNOB;
     const width = this.marks.clientWidth - 2 * room;
     const height = this.marks.clientHeight;
     const draw = (time: number, colour: string, share: number): void => {
@@ -79,6 +97,7 @@ export class Timeline {
       context.fillRect(room + (width * time) / (this.player.end || 1) - 0.75, height * (1 - share), 1.5, height * share);
     };
     for (const { time, kind } of this.run.contacts) draw(time, theme.alarm, kind === 'rest' ? 0.5 : 1);
+    for (const { time } of this.run.manoeuvres) draw(time, theme.text, 0.7);
     for (const { time } of this.run.marks) draw(time, theme.text, 1);
   }
 }

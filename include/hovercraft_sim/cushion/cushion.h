@@ -49,9 +49,11 @@ struct CushionFan {
   std::string name;
   FanCurve curve;                          // of one cell's share
   Vector3 p_HI = Vector3::Zero();          // intake, in the hull frame, m
-  double speed = 1.0;                      // share of the nominal speed, >= 0
+  double speed = 1.0;                      // share of the nominal speed, >= 0; of one that an
+                                           // actuator turns the greatest
   std::vector<FanSpeedPoint> speeds = {};  // instead of it: in between on straight lines, held at
                                            // the ends; times ascend. Empty: always `speed`
+  std::string lift_fan = {};  // the actuator of the craft that turns it instead; empty: none
 
   /// @param time s.
   double speedAt(double time) const;
@@ -124,7 +126,7 @@ class HOVERCRAFT_PUBLIC Cushion {
               CellReport* reports) const;
   void planarReport(const FanSpeeds& speeds, double load, CellReport* reports) const;
 
-  /// The fans' speeds as they are described, at a time, s.
+  /// The fans' speeds as they are described, at a time, s. Those that actuators turn: the greatest.
   FanSpeeds describedSpeeds(double time) const;
   /// The greatest that they are described with.
   FanSpeeds fullSpeeds() const;
@@ -133,10 +135,15 @@ class HOVERCRAFT_PUBLIC Cushion {
   const CushionParameters& parameters() const { return parameters_; }
 
  private:
-  struct Point {
-    Vector3 p_BK;  // m
-    double length = 0.0;
-    double stiffness = 0.0;  // N/m
+  /// Hem points of all cells, one column for each number: the loops over them are of independent
+  /// lines, which compilers make several of at once.
+  struct Hem {
+    std::vector<double> x, y, z;    // m, in B
+    std::vector<double> length;     // m
+    std::vector<double> stiffness;  // N/m
+
+    std::size_t size() const { return x.size(); }
+    Vector3 at(std::size_t k) const { return {x[k], y[k], z[k]}; }
   };
   struct Cell {
     Vector3 p_BC;  // m
@@ -146,9 +153,11 @@ class HOVERCRAFT_PUBLIC Cushion {
     std::size_t end_point = 0;
     double hem_length = 0.0;  // m
   };
-  struct Airs;  // of all cells
+  using Column = std::array<double, kMaxHemPoints>;  // one number of each hem point
+  struct Airs;                                       // of all cells
   class PlaneProbe;
   class SampledProbe;
+  class HemWrenches;
 
   template <class Probe>
   HOVERCRAFT_HIDDEN void blow(const BodyMotion& motion, const FanSpeeds& speeds, const Probe& probe,
@@ -165,8 +174,8 @@ class HOVERCRAFT_PUBLIC Cushion {
   void write(const Airs& airs, CellReport* reports) const;
 
   CushionParameters parameters_;
-  std::vector<Cell> cells_;    // in the order of the parameters
-  std::vector<Point> points_;  // of the first cell, the second, ...
+  std::vector<Cell> cells_;  // in the order of the parameters
+  Hem hem_;                  // of the first cell, the second, ...
   std::vector<MirrorPair> cell_pairs_;
   std::vector<MirrorPair> point_pairs_;
   std::vector<Vector3> intakes_B_;  // of each fan, m

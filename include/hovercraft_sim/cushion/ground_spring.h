@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 #include "hovercraft_sim/math/vector.h"
@@ -17,7 +16,12 @@ struct GroundSpring {
   /// N = max(0, k c (1 - alpha g')). (15) @param elastic k c, N. @param rate g', m/s, at which the
   /// point leaves the ground.
   double normalForce(double elastic, double rate) const {
-    return elastic * std::max(0.0, 1.0 - damping * rate);
+    const double share = 1.0 - damping * rate;
+    return elastic * (share > 0.0 ? share : 0.0);
+  }
+  /// Friction over speed along the ground, N s/m: mu N/sqrt(v_t² + v_s²). @param slip v_t², m²/s².
+  double frictionPerSpeed(double N, double slip) const {
+    return (friction * N) / std::sqrt(slip + slip_speed * slip_speed);
   }
 
   /// The force on the point: N nhat, and the friction -mu N v_t/sqrt(v_t² + v_s²). (16)
@@ -26,8 +30,7 @@ struct GroundSpring {
     const double rate = dot(nhat, v);
     const double N = normalForce(elastic, rate);
     const Vector3 v_t = v - rate * nhat;
-    const double share = (friction * N) / std::sqrt(squaredNorm(v_t) + slip_speed * slip_speed);
-    return N * nhat - share * v_t;
+    return N * nhat - frictionPerSpeed(N, squaredNorm(v_t)) * v_t;
   }
 };
 

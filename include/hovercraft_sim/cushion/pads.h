@@ -36,8 +36,12 @@ class HOVERCRAFT_PUBLIC Pads {
  private:
   Wrench wrenchOf(const Vector3& p_B, const BodyMotion& motion, const GroundSample& sample) const;
 
-  std::vector<Vector3> vertices_B_;  // mirrored pairs first: one after the other
-  std::size_t paired_ = 0;           // of so many
+  bool isClearOf(const GroundPlane& plane, const BodyMotion& motion) const;
+
+  std::vector<Vector3> vertices_B_;        // mirrored pairs first: one after the other
+  std::size_t paired_ = 0;                 // of so many
+  Vector3 middle_B_ = Vector3::Zero();     // m, of the box around the vertices
+  Vector3 half_extent_ = Vector3::Zero();  // m
   double stiffness_ = 0.0;
   GroundSpring spring_;
 };

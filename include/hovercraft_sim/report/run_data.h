@@ -132,6 +132,17 @@ struct RunMark {
   std::string text;
 };
 
+/// A manoeuvre that a pilot has flown.
+struct RunManoeuvre {
+  std::string craft;
+  std::string name;
+  std::string kind;
+  bool is_complete = true;
+  std::int64_t execute_ns = 0;  // the first execute
+  std::int64_t end_ns = 0;
+  std::string text;  // what it came to, a line each
+};
+
 /// A number or a word about the run.
 struct RunFact {
   std::string label;
@@ -146,6 +157,7 @@ struct RunData {
   std::vector<RunObstacle> obstacles;
   std::optional<RunGround> ground;
   std::vector<RunContact> contacts;
+  std::vector<RunManoeuvre> manoeuvres;
   std::vector<RunMark> marks;
   std::vector<RunFact> facts;
   std::vector<RunPanel> panels;    // of no craft

@@ -35,6 +35,9 @@ class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
   void contact(const hovercraft::ContactEvent& event) override;
   /// Received at the time of its delivery, stamped with that of its measurement.
   void sample(const hovercraft::SensorSample& sample) override;
+  /// Received and stamped at the tick of its end.
+  void flown(const hovercraft::FlownManoeuvre& manoeuvre, std::size_t vehicle,
+             hovercraft::Tick tick) override;
   void close() override;
 
   /// An event that was just applied, at the tick and of the episode that it names. After one that

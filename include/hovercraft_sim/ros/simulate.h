@@ -32,9 +32,10 @@ HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::StateSink> openOutput(
 
 /// What the tool `simulate` was asked for.
 struct SimulateRequest {
-  std::string scenario;           // file
-  std::vector<std::string> sets;  // KEY.PATH=VALUE: withOverrides()
-  std::string commands;           // file; empty: nobody commands anything
+  std::string scenario;             // file
+  std::vector<std::string> sets;    // KEY.PATH=VALUE: withOverrides()
+  std::string commands;             // file; empty: nobody commands anything
+  std::vector<std::string> pilots;  // files of manoeuvres, each for another craft
   std::string duration;  // decimal seconds; empty: until kAfterLastCommandNs after the last
   std::string output;    // as openOutput()
   std::string contacts;  // CSV file of contacts; empty: none

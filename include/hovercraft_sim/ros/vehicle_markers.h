@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 #include <visualization_msgs/Marker.h>
@@ -20,8 +21,13 @@ namespace hovercraft_ros {
 HOVERCRAFT_PUBLIC hovercraft::Vector3 equivalentBox(const hovercraft::MassProperties& body);
 
 /// Hull (its parts, or the equivalent box), bow and engines, in base_link.
+/// @param index of the craft in its scenario: each has a colour, after kCraftColors they repeat.
 HOVERCRAFT_PUBLIC std::vector<visualization_msgs::Marker> craftMarkers(
-    const hovercraft::VehicleScenario& craft);
+    const hovercraft::VehicleScenario& craft, std::size_t index = 0);
+constexpr std::size_t kCraftColors = 6;
+
+/// The name of a craft above it, in base_link.
+HOVERCRAFT_PUBLIC visualization_msgs::Marker nameMarker(const hovercraft::VehicleScenario& craft);
 
 /// An arrow per engine along the force that it exerts on the craft; its length grows with the
 /// applied thrust. Red while the command is saturated, else orange.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <memory>
 
 #include "hovercraft_sim/cushion/height_map.h"
 #include "hovercraft_sim/geometry/pose.h"
@@ -13,6 +13,7 @@ namespace hovercraft {
 class HOVERCRAFT_PUBLIC RayGround {
  public:
   explicit RayGround(const GroundPlane& plane) : plane_(plane) {}
+  explicit RayGround(std::shared_ptr<const HeightMapGround> map);
   explicit RayGround(const HeightGrid& grid);
 
   /// The nearest hit of each beam, as castBeams(); of a map exact within each mesh, where the
@@ -25,8 +26,8 @@ class HOVERCRAFT_PUBLIC RayGround {
   double heightOver(const Vector3& p_W) const;
 
   GroundPlane plane_;
-  std::optional<HeightMapGround> map_;
-  double highest_ = 0.0;  // m, of the map
+  std::shared_ptr<const HeightMapGround> map_;  // none: a plane
+  double highest_ = 0.0;                        // m, of the map
 };
 
 }  // namespace hovercraft

@@ -11,4 +11,13 @@ namespace hovercraft {
 /// none of its own.
 std::vector<Force> forcesOf(const VehicleScenario& vehicle);
 
+/// A fan of a cushion and the actuator that turns it: its speed is the actuator's level.
+struct FanDrive {
+  std::size_t fan = 0;       // index of the fan in the cushion
+  std::size_t actuator = 0;  // id
+};
+
+/// Of the fans of a craft's cushion those that lift fans of its actuators turn, in their order.
+std::vector<FanDrive> fanDrivesOf(const VehicleScenario& vehicle);
+
 }  // namespace hovercraft

@@ -24,6 +24,9 @@ class HOVERCRAFT_PUBLIC ContactsCsvWriter : public StateSink {
   void applied(const Command& command) override { next_->applied(command); }
   void contact(const ContactEvent& event) override;
   void sample(const SensorSample& sample) override { next_->sample(sample); }
+  void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
+    next_->flown(manoeuvre, vehicle, tick);
+  }
   void close() override;
 
  private:

@@ -11,8 +11,9 @@
 namespace hovercraft {
 
 /// Hands everything on to another sink, and writes the cells of all cushions as CSV with the header
-/// `time,vehicle,cell,pressure,gap,flow,force`: s, name, number from 0 in the order of the
-/// scenario, Pa, m, m³/s, N. Times are exact; numbers as appendNumber().
+/// `time,vehicle,cell,pressure,gap,flow,force,fan_speed,power`: s, name, number from 0 in the order
+/// of the scenario, Pa, m, m³/s, N, of its fan a share of the nominal speed, W into the air of this
+/// cell. Times are exact; numbers as appendNumber().
 class HOVERCRAFT_PUBLIC CushionCsvWriter : public StateSink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing, or no vehicle has a
@@ -24,6 +25,9 @@ class HOVERCRAFT_PUBLIC CushionCsvWriter : public StateSink {
   void applied(const Command& command) override { next_->applied(command); }
   void contact(const ContactEvent& event) override { next_->contact(event); }
   void sample(const SensorSample& sample) override { next_->sample(sample); }
+  void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
+    next_->flown(manoeuvre, vehicle, tick);
+  }
   void close() override;
 
  private:

@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/pilot/pilot.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -28,6 +29,8 @@ class StateSink {
   virtual void contact(const ContactEvent& /*event*/) {}
   /// A sample of a sensor, at the tick of its delivery, before the state of that tick.
   virtual void sample(const SensorSample& /*sample*/) {}
+  /// A manoeuvre that was flown with a craft and ended at a tick, before the step from it.
+  virtual void flown(const FlownManoeuvre& /*manoeuvre*/, std::size_t /*vehicle*/, Tick /*tick*/) {}
   /// The run is over and was whole. @throws std::invalid_argument if it could not all be written.
   virtual void close() = 0;
 };
@@ -35,6 +38,9 @@ class StateSink {
 struct RunPlan {
   Tick last_tick = 0;  // where the run ends
   Tick every = 1;      // ticks from one output to the next, > 0; tick 0 is the first
+  /// Called before each step, after the output of its tick; may push commands for it. The run ends
+  /// there where it returns false. May be empty.
+  std::function<bool(Simulation&)> steer;
   std::function<void(Tick)> on_progress;  // called every kProgressInterval ticks; may be empty
 };
 constexpr Tick kProgressInterval = 4096;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -111,13 +112,12 @@ struct PlaneScenario {
 
 /// Heights as the pixels of an image, named as in the YAML of map_server.
 struct HeightMapScenario {
-  std::string image;        // all bytes of a PGM or PNG file
-  double resolution = 0.0;  // m, edge of a pixel
-  double x = 0.0;           // m, of the lower left corner of the image
-  double y = 0.0;
-  double z_min = 0.0;  // m, of a pixel of value 0
-  double z_max = 0.0;  // m, of a pixel of the greatest value
-  HeightGrid grid;     // as read
+  std::string image;                               // all bytes of a PGM or PNG file
+  double resolution = 0.0;                         // m, edge of a pixel
+  double x = 0.0, y = 0.0;                         // m, of the lower left corner of the image
+  double z_min = 0.0;                              // m, of a pixel of value 0
+  double z_max = 0.0;                              // m, of a pixel of the greatest value
+  std::shared_ptr<const HeightMapGround> surface;  // as read: one for all that ask it
 };
 
 /// Ground besides the obstacles of a world.

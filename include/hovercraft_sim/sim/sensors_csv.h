@@ -25,6 +25,9 @@ class HOVERCRAFT_PUBLIC SensorsCsvWriter : public StateSink {
   void applied(const Command& command) override { next_->applied(command); }
   void contact(const ContactEvent& event) override { next_->contact(event); }
   void sample(const SensorSample& sample) override;
+  void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
+    next_->flown(manoeuvre, vehicle, tick);
+  }
   void close() override;
 
  private:

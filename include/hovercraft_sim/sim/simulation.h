@@ -11,6 +11,7 @@
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/sensors/sensor_suite.h"
+#include "hovercraft_sim/sim/actuator_forces.h"
 #include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/simulation_state.h"
 #include "hovercraft_sim/world/world.h"
@@ -87,8 +88,7 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// The cushion of a craft as it is now; no cells without one. @param report replaced.
   void cushionReport(std::size_t vehicle, CushionReport& report) const;
 
-  /// Hash of everything that determines the future of one craft, or of all: FNV-1a, 64 bits,
-  /// defined in ARCHITECTURE.md.
+  /// Hash of what determines the future of one craft, or of all: FNV-1a, 64 bits (ARCHITECTURE.md).
   std::uint64_t hash(std::size_t vehicle) const;
   std::uint64_t hash() const;
 
@@ -113,7 +113,7 @@ class HOVERCRAFT_PUBLIC Simulation {
  private:
   void applyDueCommands();
   void endWrenches();
-  void turnFans(const Cushion& cushion, FanSpeedCourse& course) const;
+  void turnFans(std::size_t vehicle);
   void prepareInputs();
   void takeResult();
   void refreshWind();
@@ -135,7 +135,8 @@ class HOVERCRAFT_PUBLIC Simulation {
   std::shared_ptr<const Ground> ground_;       // what cushions blow on; none
   std::shared_ptr<const Ground> bare_ground_;  // what pads stand on; none
   std::optional<Gusts> gusts_;
-  std::vector<EngineDynamics> engine_dynamics_;  // of each vehicle
+  std::vector<EngineDynamics> engine_dynamics_;    // of each vehicle
+  std::vector<std::vector<FanDrive>> fan_drives_;  // likewise
   SimulationState state_;
   std::vector<StepInputs> inputs_;  // of each body, in the step that is made
   std::optional<SensorSuite> sensors_;
