@@ -89,7 +89,9 @@ Vector3 dragOf(const hovercraft::VehicleScenario& craft, const Vector3& wind,
   const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::Matrix3 R_WB = hovercraft::rotationMatrix(fromMessage(state.pose.orientation));
   const Vector3 u_B = hovercraft::transposeTimes(R_WB, fromMessage(state.velocity) - wind);
-  return hovercraft::times(R_WB, craft.drag.wrenchInBody(u_B, Vector3::Zero()).force);
+  Vector3 force_B = craft.drag.wrenchInBody(u_B, Vector3::Zero()).force;
+  if (craft.polar) force_B += craft.polar->wrenchInBody(u_B).force;
+  return hovercraft::times(R_WB, force_B);
 }
 
 std::optional<Vector3> resultantOf(const CraftMotion& motion) {

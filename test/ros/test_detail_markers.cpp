@@ -53,6 +53,17 @@ TEST(DetailMarkers, DragActsAgainstTheWayThroughTheAir) {
   EXPECT_NEAR((windy - Vector3(5.0, -3.0, 0.0)).norm(), 0.0, 1e-12);
 }
 
+// A polar of 1 m² ahead adds q = 2 kg/m³ (2 m/s)²/2 = 4 N.
+TEST(DetailMarkers, DragIsThatOfThePolarToo) {
+  hovercraft::VehicleScenario craft = dragged();
+  craft.polar.emplace();
+  craft.polar->air_density = 2.0;
+  craft.polar->area_x = 1.0;
+  craft.polar->surge[1] = 1.0;
+  const Vector3 drag = dragOf(craft, Vector3::Zero(), stateAlongY());
+  EXPECT_NEAR((drag - Vector3(0.0, -10.0, 0.0)).norm(), 0.0, 1e-12);
+}
+
 TEST(DetailMarkers, TheResultantIsTheChangeOfMomentum) {
   CraftMotion motion;
   motion.state = stateAlongY();

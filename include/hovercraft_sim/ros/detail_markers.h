@@ -22,7 +22,7 @@ struct CraftMotion {
   std::optional<hovercraft_sim::State> before;  // of the same episode
 };
 
-/// The force that a craft's drag exerts, N, in W. @param wind m/s, in W.
+/// The force that a craft's drag exerts, that of a polar included, N, in W. @param wind m/s, in W.
 HOVERCRAFT_PUBLIC hovercraft::Vector3 dragOf(const hovercraft::VehicleScenario& craft,
                                              const hovercraft::Vector3& wind,
                                              const hovercraft_sim::State& state);
