@@ -74,69 +74,22 @@ double logOfTail(double p) {
   return exponent * kLn2High + (log_m + exponent * kLn2Low);
 }
 
-/// Φ⁻¹(1 - p) for p in (0, 1/2), far from 1/2.
-double tailQuantile(double p) {
+/// Φ⁻¹(1 - p) for p in (0, 1/2).
+double upperQuantile(double p) {
+  const double q = 0.5 - p;
+  if (q <= kCentralHalfWidth) return q * ratio(kCentral, kCentralSquare - q * q);
   const double r = std::sqrt(-logOfTail(p));
   if (r <= kFarTailBegin) return ratio(kNearTail, r - kNearTailShift);
   return ratio(kFarTail, r - kFarTailBegin);
 }
 
-/// Φ⁻¹(1 - p) for p in (0, 1/2).
-double upperQuantile(double p) {
-  const double q = 0.5 - p;
-  if (q <= kCentralHalfWidth) return q * ratio(kCentral, kCentralSquare - q * q);
-  return tailQuantile(p);
-}
-
-double tailOf(std::uint64_t bits) {
-  constexpr double kAtom = 1.0 / 9007199254740992.0;  // 2^-53
-  const std::uint64_t k = (bits >> 11U) & ((std::uint64_t{1} << 52U) - 1U);
-  return (static_cast<double>(k) + 0.5) * kAtom;
-}
-
-double withSign(double magnitude, std::uint64_t bits) {
-  return (bits >> 63U) != 0U ? -magnitude : magnitude;
-}
-
 }  // namespace
 
 double normalFromBits(std::uint64_t bits) {
-  return withSign(upperQuantile(tailOf(bits)), bits);
-}
-
-std::array<double, 6> normalsFromBits(const std::array<std::uint64_t, 6>& bits) {
-  constexpr std::size_t kCount = 6;
-  double q[kCount];
-  double x[kCount];
-  double z[kCount];
-  for (std::size_t i = 0; i < kCount; ++i) q[i] = 0.5 - tailOf(bits[i]);
-  for (std::size_t i = 0; i < kCount; ++i) x[i] = kCentralSquare - q[i] * q[i];
-  // Each step of a polynomial waits for the one before: six of them side by side.
-  double top[kCount];
-  double bottom[kCount];
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const double y = x[i];
-    const Coefficients& a = kCentral[0];
-    const Coefficients& b = kCentral[1];
-    top[i] =
-        ((((((a[7] * y + a[6]) * y + a[5]) * y + a[4]) * y + a[3]) * y + a[2]) * y + a[1]) * y +
-        a[0];
-    bottom[i] =
-        ((((((b[7] * y + b[6]) * y + b[5]) * y + b[4]) * y + b[3]) * y + b[2]) * y + b[1]) * y +
-        b[0];
-  }
-  for (std::size_t i = 0; i < kCount; ++i) z[i] = q[i] * (top[i] / bottom[i]);
-  // One in seven is none of these. Which, nobody can predict: they are listed without a branch.
-  std::array<std::size_t, kCount + 1> far{};
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    far[count] = i;
-    count += q[i] <= kCentralHalfWidth ? 0U : 1U;
-  }
-  for (std::size_t i = 0; i < count; ++i) z[far[i]] = tailQuantile(tailOf(bits[far[i]]));
-  std::array<double, kCount> signed_z{};
-  for (std::size_t i = 0; i < kCount; ++i) signed_z[i] = withSign(z[i], bits[i]);
-  return signed_z;
+  constexpr double kAtom = 1.0 / 9007199254740992.0;  // 2^-53
+  const std::uint64_t k = (bits >> 11U) & ((std::uint64_t{1} << 52U) - 1U);
+  const double magnitude = upperQuantile((static_cast<double>(k) + 0.5) * kAtom);
+  return (bits >> 63U) != 0U ? -magnitude : magnitude;
 }
 
 std::uint32_t NoiseStreams::add(const std::string& name) {

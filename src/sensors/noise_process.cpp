@@ -20,8 +20,10 @@ Vector3 firstNormals(const NoiseChannel& channel, Tick tick) {
 
 /// All six: two of each draw.
 std::array<Vector3, 2> sixNormals(const NoiseChannel& channel, Tick tick) {
-  const auto z = channel.sixNormals(tick);
-  return {Vector3(z[0], z[1], z[2]), Vector3(z[3], z[4], z[5])};
+  const auto a = channel.normals(tick, 0);
+  const auto b = channel.normals(tick, 1);
+  const auto c = channel.normals(tick, 2);
+  return {Vector3(a[0], a[1], b[0]), Vector3(b[1], c[0], c[1])};
 }
 
 /// A bias by its decay rate, 1/s, and its stationary sigma.

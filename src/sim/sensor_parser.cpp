@@ -300,15 +300,36 @@ std::string sensorText(const SensorParameters& sensor) {
   return text + std::visit(ModelWriter(), sensor.model) + "}\n";
 }
 
-}  // namespace
-
-namespace {
-
 /// Sensors have other noise than the gusts, too.
-void addGusts(const Scenario& scenario, NoiseStreams& streams) {
+void addGusts(const ConfigReader& top, const Scenario& scenario, NoiseStreams& streams) {
   if (!scenario.gusts) return;
-  for (const std::string& body : bodyNames(scenario)) {
-    for (const std::string& channel : Gusts::channelsOf(body)) streams.add(channel);
+  try {
+    for (const std::string& body : bodyNames(scenario)) {
+      for (const std::string& channel : Gusts::channelsOf(body)) streams.add(channel);
+    }
+  } catch (const std::invalid_argument& error) {
+    top.map("gusts").fail("", error.what());
+  }
+}
+
+/// What the sensors of all craft share.
+struct SharedBounds {
+  NoiseStreams streams;
+  double on_their_way = 0.0;
+};
+
+void addSensor(const ConfigReader& reader, const std::string& vehicle,
+               const SensorParameters& sensor, const Scenario& scenario, SharedBounds& shared) {
+  shared.on_their_way += numbersOnTheirWay(sensor, scenario);
+  if (shared.on_their_way > kMostOnTheirWay) {
+    reader.fail("latency", fmt::format("must be so short that at most {:.0f} numbers are on "
+                                       "their way, of all sensors together",
+                                       kMostOnTheirWay));
+  }
+  try {
+    for (const std::string& channel : channelNames(vehicle, sensor)) shared.streams.add(channel);
+  } catch (const std::invalid_argument& error) {
+    reader.fail("", error.what());
   }
 }
 
@@ -316,27 +337,14 @@ void addGusts(const Scenario& scenario, NoiseStreams& streams) {
 
 void parseSensors(const ConfigReader& top, Scenario& scenario) {
   const ConfigReader vehicles = top.map("vehicles");
-  NoiseStreams streams;
-  addGusts(scenario, streams);
-  double on_their_way = 0.0;
+  SharedBounds shared;
+  addGusts(top, scenario, shared.streams);
   for (VehicleScenario& vehicle : scenario.vehicles) {
     const ConfigReader reader = vehicles.map(vehicle.name);
     if (reader.has("sensors")) {
       for (const auto& [name, sensor] : reader.map("sensors").maps()) {
         vehicle.sensors.push_back(parseSensor(name, sensor, {scenario}));
-        on_their_way += numbersOnTheirWay(vehicle.sensors.back(), scenario);
-        if (on_their_way > kMostOnTheirWay) {
-          sensor.fail("latency", fmt::format("must be so short that at most {:.0f} numbers are on "
-                                             "their way, of all sensors together",
-                                             kMostOnTheirWay));
-        }
-        try {
-          for (const std::string& channel : channelNames(vehicle.name, vehicle.sensors.back())) {
-            streams.add(channel);
-          }
-        } catch (const std::invalid_argument& error) {
-          sensor.fail("", error.what());
-        }
+        addSensor(sensor, vehicle.name, vehicle.sensors.back(), scenario, shared);
       }
     }
     parseTf(reader, vehicle);

@@ -42,7 +42,8 @@ void readLayout(const std::string& input) {
 void reportBag(const std::string& input) {
   const MemoryFile file(input);
   try {
-    pageJson({runDataOf(hovercraft_ros::readTopics(file.path()))}, {});
+    hovercraft_ros::pageJson({hovercraft_ros::runDataOf(hovercraft_ros::readTopics(file.path()))},
+                             {});
   } catch (const std::invalid_argument&) {
   }
 }

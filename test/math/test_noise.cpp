@@ -121,28 +121,6 @@ TEST(NoiseChannel, GivesTheRecordedBits) {
   EXPECT_EQ(hash, 0xd9b9a563bc33bd04ULL);
 }
 
-// Six at once: 10^5 of them are of all three approximations, most of them several in one six.
-TEST(NoiseChannel, SixAtOnceAreThoseOfThreeDraws) {
-  const NoiseChannel channel(-3, streamOf("alpha/imu/gyro"));
-  for (Tick tick = 0; tick < 100000; ++tick) {
-    const auto six = channel.sixNormals(tick << 20U);
-    for (std::uint32_t draw = 0; draw < 3; ++draw) {
-      const auto two = channel.normals(tick << 20U, draw);
-      ASSERT_EQ(six[2 * draw], two[0]) << tick;
-      ASSERT_EQ(six[2 * draw + 1], two[1]) << tick;
-    }
-  }
-}
-
-TEST(Normal, SixAtOnceHaveTheBitsOfEach) {
-  const std::uint64_t sign = std::uint64_t{1} << 63U;
-  // The largest magnitude, the far tail, the border of the centre, the centre.
-  const std::array<std::uint64_t, 6> bits = {
-      0, sign, sign | 0x40000U, 0x1333333333333333U, 0x1333333333334fffU, ~std::uint64_t{0}};
-  const auto six = normalsFromBits(bits);
-  for (std::size_t i = 0; i < bits.size(); ++i) EXPECT_EQ(six[i], normalFromBits(bits[i])) << i;
-}
-
 // The counter is (tick low, tick high, stream, draw), the key the seed; the first word is low.
 TEST(NoiseChannel, DrawsFromItsCounter) {
   const NoiseChannel channel(0x299f31d0a4093822, 0x13198a2e);

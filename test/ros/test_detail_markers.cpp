@@ -62,6 +62,17 @@ TEST(DetailMarkers, TheWindOfGustsCountsWhereItIsKnown) {
   EXPECT_EQ(markers[3].text, "wind 1 m/s");
 }
 
+// A polar of 1 m² ahead adds q = 2 kg/m³ (2 m/s)²/2 = 4 N.
+TEST(DetailMarkers, DragIsThatOfThePolarToo) {
+  hovercraft::VehicleScenario craft = dragged();
+  craft.polar.emplace();
+  craft.polar->air_density = 2.0;
+  craft.polar->area_x = 1.0;
+  craft.polar->surge[1] = 1.0;
+  const Vector3 drag = dragOf(craft, Vector3::Zero(), stateAlongY());
+  EXPECT_NEAR((drag - Vector3(0.0, -10.0, 0.0)).norm(), 0.0, 1e-12);
+}
+
 TEST(DetailMarkers, TheResultantIsTheChangeOfMomentum) {
   CraftMotion motion;
   motion.state = stateAlongY();

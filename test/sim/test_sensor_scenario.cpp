@@ -184,7 +184,7 @@ TEST(SensorScenario, EveryRuleOfALaserToo) {
   }
 }
 
-// Each may have 400,000 values on their way alone: (60 s 1000 Hz + 1) (3 + 3) = 360,006.
+// One alone has (60 s 1000 Hz + 1) (3 + 6) = 540,009.
 TEST(SensorScenario, AllTogetherHaveABoundForWhatIsOnItsWay) {
   const std::string compass = ": {kind: magnetometer, rate: 1000, latency: 60, field: [0, 0, 0]}\n";
   const auto with_sensors = [&](const std::string& sensors) {
@@ -193,8 +193,8 @@ TEST(SensorScenario, AllTogetherHaveABoundForWhatIsOnItsWay) {
   };
   EXPECT_EQ(with_sensors("      a" + compass), "nothing was thrown");
   EXPECT_EQ(with_sensors("      a" + compass + "      b" + compass),
-            "test: vehicles.craft.sensors.b.latency = 60: must be so short that at most 500000 "
-            "numbers of all sensors are on their way");
+            "test: vehicles.craft.sensors.b.latency = 60: must be so short that at most 600000 "
+            "numbers are on their way, of all sensors together");
 }
 
 TEST(SensorScenario, AKeyOfAnotherKindIsUnknown) {

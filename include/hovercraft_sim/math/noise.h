@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -19,10 +18,6 @@ namespace hovercraft {
 /// the normal one in 2^53 atoms of equal weight; the largest magnitude is 8.2924. Absolute error at
 /// most 4.1e-15. Only + - * / and sqrt: the same bits on every machine.
 HOVERCRAFT_PUBLIC double normalFromBits(std::uint64_t bits);
-
-/// normalFromBits() of six numbers at once, to the same bits and for less: what does not wait for
-/// each other is computed side by side.
-HOVERCRAFT_PUBLIC std::array<double, 6> normalsFromBits(const std::array<std::uint64_t, 6>& bits);
 
 /// FNV-1a (Fowler, Noll, Vo), 32 bits, of a name's bytes.
 constexpr std::uint32_t streamOf(std::string_view name) {
@@ -54,20 +49,6 @@ class HOVERCRAFT_PUBLIC NoiseChannel {
     const PhiloxCounter words = wordsOf(tick, draw);
     return {normalFromBits((std::uint64_t{words[1]} << 32U) | words[0]),
             normalFromBits((std::uint64_t{words[3]} << 32U) | words[2])};
-  }
-
-  /// The normals() of draws 0, 1 and 2.
-  std::array<double, 6> sixNormals(Tick tick) const {
-    const std::uint32_t low = lowWord(tick);
-    const std::uint32_t high = highWord(tick);
-    const auto words = threePhilox4x32(
-        {{{low, high, stream_, 0U}, {low, high, stream_, 1U}, {low, high, stream_, 2U}}}, key_);
-    std::array<std::uint64_t, 6> bits{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      bits[2 * i] = (std::uint64_t{words[i][1]} << 32U) | words[i][0];
-      bits[2 * i + 1] = (std::uint64_t{words[i][3]} << 32U) | words[i][2];
-    }
-    return normalsFromBits(bits);
   }
 
   /// Uniform in [0, 1): a multiple of 2^-53.
