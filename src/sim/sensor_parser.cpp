@@ -246,6 +246,14 @@ double numbersOnTheirWay(const SensorParameters& sensor, const Scenario& scenari
   return (samples + 1.0) * (static_cast<double>(sampleFields(sensor).size()) + kNumbersOfASample);
 }
 
+/// @param on_their_way of all sensors so far, this one included.
+void requireRoom(const ConfigReader& sensor, double on_their_way) {
+  if (on_their_way <= kMostOnTheirWay) return;
+  sensor.fail("latency", fmt::format("must be so short that at most {:.0f} numbers are on their "
+                                     "way, of all sensors together",
+                                     kMostOnTheirWay));
+}
+
 void parseTf(const ConfigReader& reader, VehicleScenario& vehicle) {
   vehicle.tf = static_cast<TfSource>(
       reader.choiceOr(static_cast<std::size_t>(vehicle.tf), "tf", tfSourceNames()));
@@ -310,11 +318,7 @@ void parseSensors(const ConfigReader& top, Scenario& scenario) {
       for (const auto& [name, sensor] : reader.map("sensors").maps()) {
         vehicle.sensors.push_back(parseSensor(name, sensor, {scenario}));
         on_their_way += numbersOnTheirWay(vehicle.sensors.back(), scenario);
-        if (on_their_way > kMostOnTheirWay) {
-          sensor.fail("latency", fmt::format("must be so short that at most {:.0f} numbers are on "
-                                             "their way, of all sensors together",
-                                             kMostOnTheirWay));
-        }
+        requireRoom(sensor, on_their_way);
         try {
           for (const std::string& channel : channelNames(vehicle.name, vehicle.sensors.back())) {
             streams.add(channel);
