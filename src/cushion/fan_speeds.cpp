@@ -23,7 +23,7 @@ double CushionFan::fullSpeed() const {
 }
 
 FanSpeedCourse FanSpeedCourse::piece(double from, double to, double h) const {
-  const auto speedsAt = [&](double share) {
+  const auto speeds_at = [&](double share) {
     const bool is_early = share < 0.5;
     const FanSpeeds& first = is_early ? start : middle;
     const FanSpeeds& second = is_early ? middle : end;
@@ -34,7 +34,7 @@ FanSpeedCourse FanSpeedCourse::piece(double from, double to, double h) const {
     }
     return speeds;
   };
-  return {speedsAt(from / h), speedsAt(0.5 * (from + to) / h), speedsAt(to / h)};
+  return {speeds_at(from / h), speeds_at(0.5 * (from + to) / h), speeds_at(to / h)};
 }
 
 }  // namespace hovercraft

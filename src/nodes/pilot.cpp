@@ -44,8 +44,7 @@ std::string fileOf(int argc, char** argv) {
 bool fly(const ros::NodeHandle& handle, const std::string& file) {
   const hovercraft::Scenario scenario =
       hovercraft_ros::receiveScenario(handle, "hovercraft_sim/scenario");
-  hovercraft_ros::PilotNode node(handle, scenario, hovercraft::loadPilot(file, scenario),
-                                 "hovercraft_sim/schedule");
+  hovercraft_ros::PilotNode node(handle, scenario, hovercraft::loadPilot(file, scenario));
   std::size_t told = 0;
   const auto tell = [&] {
     for (; told < node.pilot().flown().size(); ++told) {

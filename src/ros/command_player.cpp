@@ -89,9 +89,11 @@ void CommandPlayer::send(const ros::Time& stamp) {
     if (!commanded_[vehicle]) continue;
     const hovercraft::Command& held = held_[vehicle];
     if (held.engines > hovercraft::kAllEngines) {
+      // One message, since in lockstep a state has one answer.
       actuator_publishers_[vehicle].publish(toActuatorCommand(held, craft_[vehicle], stamp));
+    } else {
+      publishers_[vehicle].publish(toThrustCommand(held, stamp));
     }
-    publishers_[vehicle].publish(toThrustCommand(held, stamp));
   }
 }
 

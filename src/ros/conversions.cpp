@@ -136,11 +136,16 @@ hovercraft_sim::ActuatorCommand toActuatorCommand(const Command& command,
                                                   const ros::Time& stamp) {
   hovercraft_sim::ActuatorCommand message;
   message.header.stamp = stamp;
-  for (std::size_t i = 0; i < craft.actuators.size(); ++i) {
-    const std::size_t id = hovercraft::kFirstActuator + i;
-    if ((command.engines & hovercraft::maskOf(id)) == 0) continue;
-    message.names.push_back(craft.actuators[i].name);
+  const auto add = [&](std::size_t id, const std::string& name) {
+    if ((command.engines & hovercraft::maskOf(id)) == 0) return;
+    message.names.push_back(name);
     message.values.push_back(command.thrusts[id]);
+  };
+  for (std::size_t id = 0; id < hovercraft::kEngineNames.size(); ++id) {
+    if (craft.has_engine[id]) add(id, hovercraft::kEngineNames[id]);
+  }
+  for (std::size_t i = 0; i < craft.actuators.size(); ++i) {
+    add(hovercraft::kFirstActuator + i, craft.actuators[i].name);
   }
   return message;
 }

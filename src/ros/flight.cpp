@@ -177,10 +177,12 @@ void Flight::answer(std::size_t vehicle, const hovercraft_sim::State& state) {
   }
   const hovercraft::Command& held = played.held[vehicle];
   const hovercraft::VehicleScenario& craft = scenario_.vehicles[vehicle];
-  if (!craft.actuators.empty()) {
+  // One message, since in lockstep a state has one answer.
+  if (held.engines > hovercraft::kAllEngines) {
     actuator_publishers_[vehicle].publish(toActuatorCommand(held, craft, state.header.stamp));
+  } else {
+    publishers_[vehicle].publish(toThrustCommand(held, state.header.stamp));
   }
-  publishers_[vehicle].publish(toThrustCommand(held, state.header.stamp));
 }
 
 hovercraft_sim::ScheduleCommands::Response Flight::schedule(

@@ -2,9 +2,7 @@
 
 #include <utility>
 
-#include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/Manoeuvre.h>
-#include <hovercraft_sim/ScheduleCommands.h>
 #include <ros/console.h>
 #include <ros/transport_hints.h>
 
@@ -16,10 +14,6 @@ namespace hovercraft_ros {
 namespace {
 
 constexpr std::uint32_t kPilotQueue = 100;
-
-bool hasEngines(const hovercraft::Command& command) {
-  return (command.engines & hovercraft::kAllEngines) != 0;
-}
 
 bool hasOthers(const hovercraft::Command& command) {
   return command.engines > hovercraft::kAllEngines;
@@ -34,19 +28,21 @@ hovercraft::ObservedMotion observed(const hovercraft_sim::State& state) {
 }  // namespace
 
 PilotNode::PilotNode(const ros::NodeHandle& handle, const hovercraft::Scenario& scenario,
-                     hovercraft::PilotFile file, const std::string& schedule)
+                     hovercraft::PilotFile file)
     : craft_(scenario.vehicles[file.vehicle]), pilot_(std::move(file), scenario.step_ns) {
   ros::NodeHandle own(handle, craft_.name);
-  schedule_ =
-      ros::NodeHandle(handle).serviceClient<hovercraft_sim::ScheduleCommands>(schedule, true);
   // In lockstep the simulation waits for the first answer even if it came before its connection.
   const ros::SubscriberStatusCallback repeat = [this](const ros::SingleSubscriberPublisher& to) {
     if (!thrusts_.header.stamp.isZero()) to.publish(thrusts_);
   };
+  const ros::SubscriberStatusCallback repeat_levels =
+      [this](const ros::SingleSubscriberPublisher& to) {
+        if (!levels_.header.stamp.isZero()) to.publish(levels_);
+      };
   thrust_ = own.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, kPilotQueue, repeat);
   if (!craft_.actuators.empty()) {
-    actuators_ =
-        own.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, kPilotQueue, true);
+    actuators_ = own.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, kPilotQueue,
+                                                                repeat_levels);
   }
   manoeuvres_ = own.advertise<hovercraft_sim::Manoeuvre>(kManoeuvresTopic, kPilotQueue, true);
   states_ = own.subscribe(kStateTopic, kPilotQueue, &PilotNode::answer, this,
@@ -88,28 +84,14 @@ void PilotNode::answer(const hovercraft_sim::State& state) {
 
 void PilotNode::send(const hovercraft_sim::State& state) {
   const hovercraft::Command& command = pilot_.command();
-  if (hasOthers(command)) sendActuators(state);
-  if (!hasEngines(command)) return;
-  thrusts_ = toThrustCommand(command, state.header.stamp);
-  thrust_.publish(thrusts_);
-}
-
-void PilotNode::sendActuators(const hovercraft_sim::State& state) {
-  const hovercraft::Command& command = pilot_.command();
-  // In lockstep a state has one answer, which the thrusts are: what else is set goes before it.
-  if (hasEngines(command) && schedules_) {
-    hovercraft_sim::ScheduleCommands call;
-    call.request.vehicle = craft_.name;
-    hovercraft::Command others = command;
-    others.engines = static_cast<hovercraft::EngineMask>(others.engines & ~hovercraft::kAllEngines);
-    call.request.commands.push_back(toMessage(others));
-    call.request.commands.front().tick = state.tick;
-    call.request.commands.front().episode = state.episode;
-    if (schedule_.call(call) && call.response.success) return;
-    // The run has gone on: no lockstep.
-    schedules_ = false;
+  // One message, since in lockstep a state has one answer.
+  if (hasOthers(command)) {
+    levels_ = toActuatorCommand(command, craft_, state.header.stamp);
+    actuators_.publish(levels_);
+  } else {
+    thrusts_ = toThrustCommand(command, state.header.stamp);
+    thrust_.publish(thrusts_);
   }
-  actuators_.publish(toActuatorCommand(command, craft_, state.header.stamp));
 }
 
 void PilotNode::tell(const ros::Time& stamp) {

@@ -54,7 +54,7 @@ HOVERCRAFT_PUBLIC hovercraft_sim::AppliedCommand toMessage(const hovercraft::Com
 /// Its thrusts of all three engines, whichever it is for.
 HOVERCRAFT_PUBLIC hovercraft_sim::ThrustCommand toThrustCommand(const hovercraft::Command& command,
                                                                 const ros::Time& stamp);
-/// Its values for actuators besides the engines.
+/// Its values for the actuators that it is for, engines among them.
 HOVERCRAFT_PUBLIC hovercraft_sim::ActuatorCommand toActuatorCommand(
     const hovercraft::Command& command, const hovercraft::VehicleScenario& craft,
     const ros::Time& stamp);

@@ -5,11 +5,11 @@
 #include <optional>
 #include <string>
 
+#include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/State.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <ros/service_client.h>
 #include <ros/single_subscriber_publisher.h>
 #include <ros/subscriber.h>
 
@@ -26,10 +26,9 @@ namespace hovercraft_ros {
 /// A new episode (reset, load), or ticks that go back, end the flight: the manoeuvre is given up.
 class HOVERCRAFT_PUBLIC PilotNode {
  public:
-  /// @param handle of the namespace that the craft's namespace lies in. @param schedule name of the
-  /// simulation's service ~schedule: asked for the levels of other actuators beside engines.
+  /// @param handle of the namespace that the craft's namespace lies in.
   PilotNode(const ros::NodeHandle& handle, const hovercraft::Scenario& scenario,
-            hovercraft::PilotFile file, const std::string& schedule);
+            hovercraft::PilotFile file);
   PilotNode(const PilotNode&) = delete;
   PilotNode& operator=(const PilotNode&) = delete;
 
@@ -41,19 +40,16 @@ class HOVERCRAFT_PUBLIC PilotNode {
   void answer(const hovercraft_sim::State& state);
   bool isNewRun(const hovercraft_sim::State& state) const;
   void send(const hovercraft_sim::State& state);
-  /// Others than engines, so that they act with the thrusts that are sent after.
-  void sendActuators(const hovercraft_sim::State& state);
   void tell(const ros::Time& stamp);
 
   hovercraft::VehicleScenario craft_;
   hovercraft::CraftPilot pilot_;
-  hovercraft_sim::ThrustCommand thrusts_;  // the last ones
+  hovercraft_sim::ThrustCommand thrusts_;   // the last ones, of engines alone
+  hovercraft_sim::ActuatorCommand levels_;  // the last ones, of others too
   std::optional<hovercraft_sim::State> last_;
   std::size_t told_ = 0;  // manoeuvres that were published
-  bool schedules_ = true;
   bool is_done_ = false;
   bool has_warned_ = false;
-  ros::ServiceClient schedule_;
   ros::Publisher thrust_;
   ros::Publisher actuators_;
   ros::Publisher manoeuvres_;
