@@ -99,18 +99,14 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
   const boost::function<void(const hovercraft_sim::EngineStatus&)> on_engines =
       [craft](const hovercraft_sim::EngineStatus& engines) { craft->engines = engines; };
   const boost::function<void(const hovercraft_sim::Wind&)> on_wind =
-      [craft](const hovercraft_sim::Wind& wind) { craft->wind = fromMessage(wind.true_wind); };
+      [craft](const hovercraft_sim::Wind& wind) {
+        craft->motion.wind = fromMessage(wind.true_wind);
+      };
   craft->subscribers = {
       own.subscribe<hovercraft_sim::Wind>(kWindTopic, kDisplayQueue, on_wind),
       own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kDisplayQueue, on_pose),
       own.subscribe<hovercraft_sim::State>(kStateTopic, kDisplayQueue, on_state),
       own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kDisplayQueue, on_engines)};
-  const boost::function<void(const hovercraft_sim::Wind&)> on_wind =
-      [craft](const hovercraft_sim::Wind& wind) {
-        craft->motion.wind = fromMessage(wind.true_wind);
-      };
-  craft->subscribers.push_back(
-      own.subscribe<hovercraft_sim::Wind>(kWindTopic, kDisplayQueue, on_wind));
   if (!description.cushion) return;
   const boost::function<void(const hovercraft_sim::Cushion&)> on_cushion =
       [craft](const hovercraft_sim::Cushion& cushion) { craft->cushion = cushion; };
@@ -164,8 +160,7 @@ void MarkersNode::publishDetails() {
     poses.push_back(poseOf(craft->pose.pose));
     if (!craft->world_frame.empty()) world_frame = craft->world_frame;
     if (craft->motion.state.header.frame_id.empty()) continue;
-    append(array.markers,
-           forceMarkers(craft->description, craft->wind.value_or(scenario_.wind), craft->motion));
+    append(array.markers, forceMarkers(craft->description, scenario_.wind, craft->motion));
   }
   if (nearest_ && !world_frame.empty()) {
     for (std::size_t i = poses.size(); i < nearest_->moving().size(); ++i) {

@@ -191,6 +191,28 @@ TEST(ActuatorCommand, IsTakenWholeOrNotAtAll) {
   EXPECT_FALSE(refused({"fr"}, {0.01}));
 }
 
+// In lockstep a state has one answer: engines and others go in one message. One that the craft
+// lacks is left out, though a command of all engines is for it too.
+TEST(ActuatorMessages, EnginesGoWithTheOthersInOne) {
+  std::string yaml = fourFansYaml();
+  const std::string engines =
+      "    engines: {rear: {position: [-0.1, 0, 0], direction: [1, 0, 0], min_thrust: 0, "
+      "max_thrust: 1}}\n";
+  yaml.insert(yaml.find("    actuators:"), engines);
+  const hovercraft::Scenario scenario = scenarioOf(yaml);
+  hovercraft::Command command{
+      0, 0, hovercraft::kAllEngines | hovercraft::maskOf(std::size_t{4}), {}};
+  command.thrusts[0] = 0.5;
+  command.thrusts[4] = 0.06;
+  const hovercraft_sim::ActuatorCommand message =
+      toActuatorCommand(command, scenario.vehicles[0], ros::Time(1, 0));
+  EXPECT_EQ(message.names, (std::vector<std::string>{"rear", "br"}));
+  EXPECT_EQ(message.values, (std::vector<double>{0.5, 0.06}));
+  const auto back = toCommand(message, scenario.vehicles[0], 0, 0);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->engines, hovercraft::maskOf(std::size_t{0}) | hovercraft::maskOf(std::size_t{4}));
+}
+
 // So that one message commands all of a craft: in lockstep one is taken.
 TEST(ActuatorCommand, NamesEnginesToo) {
   const hovercraft::Scenario scenario =

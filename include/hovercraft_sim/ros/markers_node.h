@@ -44,7 +44,6 @@ class HOVERCRAFT_PUBLIC MarkersNode {
     std::string world_frame;
     hovercraft_sim::EngineStatus engines;
     hovercraft_sim::Cushion cushion;
-    std::optional<hovercraft::Vector3> wind;  // m/s, in W; none yet: that of the scenario
     FlownPath path;
     CraftMotion motion;
     geometry_msgs::PoseStamped pose;
