@@ -103,6 +103,17 @@ GustState Gusts::start(std::size_t body, std::int64_t seed) const {
   return state;
 }
 
+bool Gusts::canBe(const GustState& state) const {
+  constexpr double kMostDeviations = 100.0;  // a normal variate is below 9
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const double most_1 = kMostDeviations * axes_[i].s11;
+    const double most_2 = kMostDeviations * (std::abs(axes_[i].s21) + std::abs(axes_[i].s22));
+    const bool is_near = std::abs(state[2 * i]) <= most_1 && std::abs(state[2 * i + 1]) <= most_2;
+    if (!is_near) return false;
+  }
+  return true;
+}
+
 void Gusts::advance(std::size_t body, std::int64_t seed, Tick tick, GustState& state) const {
   const FloatingPointEnvironment environment;
   for (std::size_t i = 0; i < axes_.size(); ++i) {

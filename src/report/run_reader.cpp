@@ -19,6 +19,16 @@ using hovercraft::Vector3;
 namespace {
 
 constexpr double kGreatestSeconds = 1e9;  // of a manoeuvre: beyond it a message is none
+// What a page holds of them at most; nobody flies as many.
+constexpr std::size_t kMostManoeuvres = 500;
+constexpr std::size_t kLongestText = 4096;
+
+/// The craft's name in the name of a topic of its namespace.
+std::string craftOf(const std::string& topic) {
+  const std::size_t slash = topic.rfind('/');
+  const std::string space = slash == std::string::npos ? "" : topic.substr(0, slash);
+  return space.empty() || space.front() != '/' ? space : space.substr(1);
+}
 
 bool endsIn(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -273,17 +283,21 @@ void RunMaker::readManoeuvres() {
       continue;
     }
     for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (run_.manoeuvres.size() == kMostManoeuvres) {
+        run_.notes.push_back(fmt::format("Of {} only the first manoeuvres are shown.", topic));
+        break;
+      }
       const double seconds = (*ends)[i] - (*executes)[i];
       if (!(seconds >= 0.0 && seconds <= kGreatestSeconds)) continue;
       RunManoeuvre manoeuvre;
-      manoeuvre.craft = topic.substr(1, topic.rfind('/') - 1);
+      manoeuvre.craft = craftOf(topic);
       manoeuvre.name = (*names)[i];
       manoeuvre.kind = (*kinds)[i];
       manoeuvre.is_complete = (*completes)[i] != 0.0;
       manoeuvre.end_ns = samples.stamps_ns[i] - run_.zero_ns;
       // Simulated times count from tick 0 of an episode, stamps through all of them.
       manoeuvre.execute_ns = manoeuvre.end_ns - static_cast<std::int64_t>(1e9 * seconds);
-      manoeuvre.text = (*texts)[i];
+      manoeuvre.text = (*texts)[i].substr(0, kLongestText);
       run_.manoeuvres.push_back(std::move(manoeuvre));
     }
   }

@@ -56,10 +56,11 @@ CommandPlayer::CommandPlayer(const ros::NodeHandle& handle, const hovercraft::Sc
 }
 
 bool CommandPlayer::allConnected() const {
-  return std::all_of(publishers_.begin(), publishers_.end(),
-                     [this](const ros::Publisher& publisher) {
-                       return publisher.getNumSubscribers() >= wanted_subscribers_;
-                     });
+  const auto is_heard = [this](const ros::Publisher& publisher) {
+    return !publisher || publisher.getNumSubscribers() >= wanted_subscribers_;
+  };
+  return std::all_of(publishers_.begin(), publishers_.end(), is_heard) &&
+         std::all_of(actuator_publishers_.begin(), actuator_publishers_.end(), is_heard);
 }
 
 void CommandPlayer::onState(const hovercraft_sim::State& state) {

@@ -19,8 +19,9 @@ using hovercraft::Quaternion;
 using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::InteractiveMarkerFeedback;
 
-constexpr double kHandleSize = 1.2;   // m
-constexpr double kLeastMove = 0.002;  // m, and of a quaternion: a handle follows by such steps
+constexpr double kHandleSize = 1.2;      // m
+constexpr double kLongestSilence = 2.0;  // s of wall time, of one who holds a handle
+constexpr double kLeastMove = 0.002;     // m, and of a quaternion: a handle follows by such steps
 
 /// The axis of a control is its x axis.
 InteractiveMarkerControl control(const char* name, std::uint8_t mode, double x, double y) {
@@ -74,7 +75,8 @@ void CraftPlacer::show(const std::string& craft, const std::string& world_frame,
   Handle& handle = found->second;
   handle.pose = pose;
   handle.world_frame = world_frame;
-  if (handle.is_held || (handle.is_there && isNear(pose, handle.shown))) return;
+  const bool is_held = ros::WallTime::now() < handle.held_until;
+  if (is_held || (handle.is_there && isNear(pose, handle.shown))) return;
   if (handle.is_there) {
     server_.setPose(craft, pose);
   } else {
@@ -111,12 +113,13 @@ void CraftPlacer::take(const Feedback& feedback) {
   if (found == handles_.end()) return;
   Handle& handle = found->second;
   if (feedback->event_type == InteractiveMarkerFeedback::MOUSE_DOWN ||
-      feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE) {
-    handle.is_held = true;
+      feedback->event_type == InteractiveMarkerFeedback::POSE_UPDATE ||
+      feedback->event_type == InteractiveMarkerFeedback::KEEP_ALIVE) {
+    handle.held_until = ros::WallTime::now() + ros::WallDuration(kLongestSilence);
     return;
   }
   if (feedback->event_type != InteractiveMarkerFeedback::MOUSE_UP) return;
-  handle.is_held = false;
+  handle.held_until = ros::WallTime();
   // Where it is not where its craft is, it goes back to it.
   handle.shown.position.z = HUGE_VAL;
   const std::string& frame = feedback->header.frame_id;

@@ -238,9 +238,11 @@ void Flight::answerStates(const std::string& commands) {
             : own.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, kFlightQueue));
   }
   waitUntil("somebody who takes the thrusts of every craft", [this] {
-    return std::all_of(publishers_.begin(), publishers_.end(), [](const ros::Publisher& publisher) {
-      return publisher.getNumSubscribers() > 0;
-    });
+    const auto is_heard = [](const ros::Publisher& publisher) {
+      return !publisher || publisher.getNumSubscribers() > 0;
+    };
+    return std::all_of(publishers_.begin(), publishers_.end(), is_heard) &&
+           std::all_of(actuator_publishers_.begin(), actuator_publishers_.end(), is_heard);
   });
 }
 
@@ -254,6 +256,7 @@ void Flight::play(const std::string& commands, double settle) {
   flyUntil("the end of " + commands, [this, end] { return hasReached(end); });
   played_.reset();
   publishers_.clear();
+  actuator_publishers_.clear();
 }
 
 void Flight::watch(double duration) {

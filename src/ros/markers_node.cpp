@@ -8,6 +8,7 @@
 #include <ros/console.h>
 
 #include "hovercraft_sim/math/quaternion.h"
+#include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/cushion_markers.h"
 #include "hovercraft_sim/ros/robot_description.h"
@@ -36,7 +37,9 @@ std::string besideScenario(const std::string& scenario, const char* name) {
 std::optional<hovercraft::Pose> poseOf(const geometry_msgs::Pose& message) {
   const hovercraft::Quaternion q = fromMessage(message.orientation);
   const hovercraft::Vector3 p = fromMessage(message.position);
-  const bool is_pose = p.allFinite() && std::abs(hovercraft::squaredNorm(q) - 1.0) < 1e-6;
+  const bool is_near = p.cwiseAbs().maxCoeff() <= hovercraft::kFarthest;
+  const bool is_pose =
+      p.allFinite() && is_near && std::abs(hovercraft::squaredNorm(q) - 1.0) < 1e-6;
   if (!is_pose) return std::nullopt;
   return hovercraft::Pose{hovercraft::rotationMatrix(hovercraft::normalized(q)), p};
 }
@@ -186,13 +189,22 @@ void MarkersNode::showHandles() {
 /// For RobotModel, also where no simulation runs, such as while a bag is played.
 void MarkersNode::describe(const Craft& craft, const std::string& prefix) {
   ros::NodeHandle space(handle_, craft.description.name);
-  if (space.hasParam(kRobotDescription)) return;
-  space.setParam(kRobotDescription, urdfOf(craft.description, {craft.world_frame, prefix}));
+  const std::string wanted = urdfOf(craft.description, {craft.world_frame, prefix});
+  std::string present;  // of this craft, or of one of its name that was there before
+  if (space.getParam(kRobotDescription, present) && present == wanted) return;
+  space.setParam(kRobotDescription, wanted);
 }
 
 void MarkersNode::publish() {
   if (ticks_++ % kHandleEvery == 0) showHandles();
   publishDetails();
+  for (const auto& craft : craft_) {
+    // The frame of the engines has the prefix.
+    const std::string& frame = craft->engines.header.frame_id;
+    if (craft->is_described || craft->world_frame.empty() || frame.empty()) continue;
+    describe(*craft, prefixOf(frame, craft->description.name));
+    craft->is_described = true;
+  }
   if (publisher_.getNumSubscribers() == 0) return;
   visualization_msgs::MarkerArray array;
   for (std::size_t i = 0; i < craft_.size(); ++i) {
@@ -200,8 +212,6 @@ void MarkersNode::publish() {
     if (craft->world_frame.empty()) continue;  // no pose yet: tf does not know the craft
     const std::string prefix = prefixOf(craft->engines.header.frame_id, craft->description.name);
     if (still_.empty() || still_prefix_ != prefix) makeStill(craft->world_frame, prefix);
-    if (!craft->is_described) describe(*craft, prefix);
-    craft->is_described = true;
     std::vector<visualization_msgs::Marker> fixed = craftMarkers(craft->description, i);
     if (craft_.size() > 1) fixed.push_back(nameMarker(craft->description));
     append(fixed, thrustMarkers(craft->description, craft->engines));

@@ -150,7 +150,7 @@ void readMap(const hovercraft::ConfigReader& reader, NodeConfig& config) {
 std::string readTruthOdom(const hovercraft::ConfigReader& reader, const std::string& fallback) {
   if (!reader.has("truth_odom")) return fallback;
   const std::string topic = reader.text("truth_odom");
-  if (!isTopicOfCraft(topic)) reader.fail("truth_odom", kTruthOdomRuleText);
+  if (!isTopicForTruth(topic)) reader.fail("truth_odom", kTruthOdomRuleText);
   return topic;
 }
 

@@ -230,11 +230,20 @@ class Replayer {
   }
 
   /// A snapshot is of the scenario that was recorded. In a changed one the craft start with the
-  /// same motion: pose and velocities, whatever momenta they now mean.
+  /// same motion: pose and velocities, whatever momenta they now mean. The air is that of the
+  /// changed one where the snapshot has that of the recorded one.
   void loadMotionOf(const RunEvent& event) {
     hovercraft::Simulation recorded(recording_.scenario);
     applyEvent(event, recorded);
-    simulation_.restore(recorded.state());
+    hovercraft::SimulationState state = recorded.state();
+    const hovercraft::Scenario& changed = simulation_.scenario();
+    if (state.wind_W == recording_.scenario.wind) state.wind_W = changed.wind;
+    if (changed.gusts.has_value() != recording_.scenario.gusts.has_value()) {
+      hovercraft::Simulation begun(changed);
+      begun.reset(state.seed);
+      state.gusts = begun.state().gusts;
+    }
+    simulation_.restore(state);
     for (std::size_t i = 0; i < messages_.size(); ++i) {
       const hovercraft::Motion motion = recorded.motion(i);
       simulation_.setMotion(i, motion.p_WB, motion.q_WB, motion.twist);
@@ -321,7 +330,7 @@ ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scen
 }
 
 int replayBag(const ReplayRequest& request, std::string& verdict) {
-  if (!isTopicOfCraft(request.truth_odom)) {
+  if (!isTopicForTruth(request.truth_odom)) {
     throw std::invalid_argument(
         fmt::format("--truth-odom = {}: {}", request.truth_odom, kTruthOdomRuleText));
   }

@@ -8,6 +8,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
@@ -54,7 +55,7 @@ std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string
 bool isWind(const RunEvent& event) {
   const auto& wind = event.values;
   return event.name == "wind" && wind.size() == 3 &&
-         std::isfinite(hovercraft::norm(Vector3(wind[0], wind[1], wind[2])));
+         hovercraft::canBeWind(Vector3(wind[0], wind[1], wind[2]));
 }
 
 RunEvent resetEvent(std::int64_t seed) {

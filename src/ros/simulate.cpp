@@ -78,7 +78,7 @@ void checkRequest(const SimulateRequest& request) {
   if (!request.commands.empty() && !request.pilots.empty()) {
     throw std::invalid_argument("--pilot: must not stand beside --commands");
   }
-  if (!isTopicOfCraft(request.truth_odom)) {
+  if (!isTopicForTruth(request.truth_odom)) {
     throw std::invalid_argument(
         fmt::format("--truth-odom = {}: {}", request.truth_odom, kTruthOdomRuleText));
   }

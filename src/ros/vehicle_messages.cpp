@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -10,12 +11,28 @@ namespace hovercraft_ros {
 
 using hovercraft::kEngineNames;
 
-bool isTopicOfCraft(const std::string& topic) {
+namespace {
+
+/// First or last parts of the topics that a craft has for something else.
+bool isTakenName(const std::string& part) {
+  static const std::set<std::string> names = {
+      kThrustTopic,  kPoseTopic,       kTwistTopic,     kEnginesTopic,
+      kCushionTopic, kWindTopic,       kActuatorsTopic, kActuatorCommandTopic,
+      kStateTopic,   kCommandsTopic,   "manoeuvres",    "cmd_vel",
+      "imu",         "data",           "fix",           "fix_velocity",
+      "odometry",    "magnetic_field", "scan"};
+  return names.count(part) > 0;
+}
+
+}  // namespace
+
+bool isTopicForTruth(const std::string& topic) {
+  const std::string first = topic.substr(0, topic.find('/'));
   std::string part;
   for (std::istringstream parts(topic + "/"); std::getline(parts, part, '/');) {
     if (!hovercraft::isGraphName(part)) return false;
   }
-  return true;
+  return !isTakenName(first) && !isTakenName(topic.substr(topic.rfind('/') + 1));
 }
 
 ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns) {

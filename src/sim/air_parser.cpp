@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <fmt/format.h>
 
 #include "hovercraft_sim/math/constants.h"
@@ -14,6 +15,9 @@
 namespace hovercraft {
 namespace {
 
+const NumberRule kSigma = {[](double x) { return x >= 0.0 && x <= kFastestWind; },
+                           "must be 0 to 1e6"};
+
 /// The speed that carries gusts past, m/s.
 double carryingSpeed(const Scenario& scenario) {
   return std::max(norm(scenario.wind), Gusts::kLeastSpeed);
@@ -24,7 +28,7 @@ GustAxis parseGustAxis(const ConfigReader& gusts, const char* key, const Scenari
   if (!gusts.has(key)) return axis;
   const ConfigReader reader = gusts.map(key);
   reader.allowOnly({"sigma", "length"});
-  axis.sigma = reader.number("sigma", kNotNegative);
+  axis.sigma = reader.number("sigma", kSigma);
   axis.length = reader.length("length");
   const double speed = carryingSpeed(scenario);
   if (axis.length / speed < scenario.stepSize()) {
@@ -84,6 +88,14 @@ std::string termsText(const DragPolar::Terms& terms) {
 }
 
 }  // namespace
+
+bool canBeWind(const Vector3& wind_W) {
+  return norm(wind_W) <= kFastestWind;
+}
+
+bool haveSameBits(const Vector3& a, const Vector3& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0;
+}
 
 void parseAir(const ConfigReader& top, Scenario& scenario) {
   scenario.wind = top.vectorOr(Vector3::Zero(), "wind");

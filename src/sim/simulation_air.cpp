@@ -1,5 +1,6 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/state_hash.h"
 
@@ -33,7 +34,7 @@ void Simulation::blow() {
 
 /// The air determines the future where it is not what the scenario says for ever.
 void Simulation::addAir(StateHash& hash, std::size_t first, std::size_t last) const {
-  if (!gusts_ && state_.wind_W == scenario_.wind) return;
+  if (!gusts_ && haveSameBits(state_.wind_W, scenario_.wind)) return;
   hash.add(state_.wind_W);
   if (!gusts_) return;
   for (std::size_t body = first; body < last; ++body) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "hovercraft_sim/sim/air_parser.h"
@@ -27,7 +29,8 @@ void parseGustState(const ConfigReader& reader, GustState& state) {
 
 std::string airText(const Scenario& scenario, const SimulationState& state) {
   std::string yaml;
-  if (state.wind_W != scenario.wind) yaml += "wind: " + yamlVector(state.wind_W) + "\n";
+  if (!haveSameBits(state.wind_W, scenario.wind))
+    yaml += "wind: " + yamlVector(state.wind_W) + "\n";
   if (state.gusts.empty()) return yaml;
   yaml += "gusts:\n";
   const std::vector<std::string> names = bodyNames(scenario);
@@ -42,6 +45,9 @@ std::string airText(const Scenario& scenario, const SimulationState& state) {
 
 void parseAirState(const ConfigReader& reader, const Scenario& scenario, SimulationState& state) {
   state.wind_W = reader.vectorOr(scenario.wind, "wind");
+  if (reader.has("wind") && !canBeWind(state.wind_W)) {
+    reader.fail("wind", "its speed must be at most 1e6 m/s");
+  }
   if (!scenario.gusts) {
     if (reader.has("gusts")) reader.fail("gusts", "there are none in the scenario");
     return;
@@ -51,8 +57,11 @@ void parseAirState(const ConfigReader& reader, const Scenario& scenario, Simulat
   if (gusts.maps().size() != names.size()) {
     reader.fail("gusts", "must hold those of the scenario and no other");
   }
+  const std::optional<Gusts> laws = gustsOf(scenario);
   for (const std::string& name : names) {
-    parseGustState(gusts.map(name), state.gusts.emplace_back());
+    GustState& gust = state.gusts.emplace_back();
+    parseGustState(gusts.map(name), gust);
+    if (!laws->canBe(gust)) gusts.fail(name, "must be within 100 standard deviations of its gusts");
   }
 }
 

@@ -45,7 +45,7 @@ void parseRudderOfPlant(const ConfigReader& reader, PlantActuator& rudder) {
   rudder.across_y = reader.number("across_y", kCoordinate);
   rudder.air_density = reader.number("air_density", kPositive);
   rudder.area = reader.number("area", kPositive);
-  rudder.lift_slope = reader.number("lift_slope", kPositive);
+  rudder.lift_slope = reader.number("lift_slope", kNotNegative);
   if (!reader.has("fan")) return;
   rudder.fan = reader.text("fan");
   rudder.diameter = reader.length("disc_diameter");

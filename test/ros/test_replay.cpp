@@ -213,6 +213,24 @@ TEST_F(RecordedRun, ALoadGivesAChangedScenarioTheMotionOfTheSnapshot) {
   EXPECT_GT(hovercraft::norm(loaded), 0.1);
 }
 
+TEST_F(RecordedRun, ALoadGivesAChangedScenarioItsOwnAir) {
+  Scenario windy = scenario_;
+  windy.wind = {2.0, 0.0, 0.0};
+  const hovercraft::GustAxis level = {0.2, 20.0};
+  windy.gusts = hovercraft::GustParameters{hovercraft::GustModel::kFirstOrder, level, level, {}};
+  hovercraft::Vector3 wind = hovercraft::Vector3::Zero();
+  std::size_t gusts = 0;
+  ReplayObserver observer;
+  observer.on_event = [&](const RunEvent& event, const hovercraft::Simulation& simulation) {
+    if (event.kind != RunEvent::LOAD) return;
+    wind = simulation.state().wind_W;
+    gusts = simulation.state().gusts.size();
+  };
+  replay(recording_, windy, false, observer);
+  EXPECT_EQ(wind, windy.wind);
+  EXPECT_EQ(gusts, scenario_.vehicles.size());
+}
+
 /// Which messages get lost on the way into a bag.
 struct Lost {
   std::set<std::size_t> commands;  // indices

@@ -135,12 +135,15 @@ TEST_F(SensorBag, HasTheTruthOnAnotherTopicAndTheNoisyOdometryOnOdom) {
 }
 
 TEST_F(SensorBag, RefusesATopicOfTheTruthThatIsNoneOfTheCraft) {
-  for (const char* topic : {"", "/odom", "truth odom", "truth//odom", "odom/"}) {
+  for (const char* topic : {"", "/odom", "truth odom", "truth//odom", "odom/", "odometry",
+                            "imu/data", "second/odometry", "state"}) {
     SimulateRequest asked = request("run.bag");
     asked.truth_odom = topic;
-    EXPECT_EQ(hovercraft::testing::messageOf([&] { run(asked); }),
-              "--truth-odom = " + std::string(topic) +
-                  ": must be a topic below the craft's namespace, such as truth/odom");
+    EXPECT_EQ(
+        hovercraft::testing::messageOf([&] { run(asked); }),
+        "--truth-odom = " + std::string(topic) +
+            ": must be a topic below the craft's namespace, such as truth/odom, and not that of "
+            "something else");
   }
   SimulateRequest asked = request("run.csv");
   asked.truth_odom = "truth/odom";

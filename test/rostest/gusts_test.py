@@ -111,7 +111,7 @@ class GustsTest(unittest.TestCase):
 
     def test_set_wind_refuses_what_is_no_wind(self):
         self.assertEqual([answer.success for answer in self.refused], [False] * 3)
-        self.assertIn('wind: must be three numbers that are finite', self.refused[0].message)
+        self.assertIn('wind: must be three finite numbers', self.refused[0].message)
         self.assertTrue(self.answer.success, self.answer.message)
         self.assertEqual(self.answer.tick, STEPS)
 

@@ -116,6 +116,41 @@ TEST(Air, ASnapshotWhoseAirWasChangedIsRefused) {
             std::string::npos);
 }
 
+// A zero of either sign is a wind of its own to the hash.
+TEST(Air, ASnapshotKeepsTheSignOfAZero) {
+  for (const Scenario& scenario : {gustyScenario(), scenarioOf(draggedCraft())}) {
+    Simulation simulation(scenario);
+    simulation.setWind({-0.0, 0.0, -0.0});
+    Simulation loaded(scenario);
+    loaded.restore(parseSnapshot(toSnapshot(simulation), "snap", scenario));
+    EXPECT_EQ(loaded.hash(), simulation.hash());
+    EXPECT_TRUE(std::signbit(loaded.state().wind_W.z()));
+  }
+}
+
+TEST(Air, ASnapshotOfAnAirThatCannotBeIsRefused) {
+  const Scenario scenario = gustyScenario();
+  Simulation simulation(scenario);
+  flyOn(simulation, 10);
+  SimulationState state = simulation.state();
+  state.wind_W = {2e6, 0.0, 0.0};
+  const auto refusal = [&] {
+    Simulation changed(scenario);
+    changed.restore(state);
+    return messageOf([&] { parseSnapshot(toSnapshot(changed), "snap", scenario); });
+  };
+  EXPECT_NE(refusal().find("wind: its speed must be at most 1e6 m/s"), std::string::npos)
+      << refusal();
+  state = simulation.state();
+  state.gusts[0][1] = 1e-3;  // the second number of a law of first order is 0
+  EXPECT_NE(refusal().find("within 100 standard deviations"), std::string::npos) << refusal();
+  state = simulation.state();
+  state.gusts[0][0] = -101.0;
+  EXPECT_NE(refusal().find("within 100 standard deviations"), std::string::npos) << refusal();
+  state.gusts[0][0] = -99.0;
+  EXPECT_EQ(refusal(), kNoComplaint);
+}
+
 TEST(Air, AScenarioComesBackFromItsText) {
   const Scenario scenario = scenarioOf(
       kGusts +
@@ -170,7 +205,9 @@ TEST(Air, ABadKeyIsNamed) {
   EXPECT_EQ(airComplaint(with(kGusts, "dryden", "karman") + draggedCraft()),
             "test: gusts.model = karman: must be one of: first_order, dryden");
   EXPECT_EQ(airComplaint(with(kGusts, "sigma: 1,", "sigma: -1,") + draggedCraft()),
-            "test: gusts.along.sigma = -1: must be 0 or greater");
+            "test: gusts.along.sigma = -1: must be 0 to 1e6");
+  EXPECT_EQ(airComplaint(with(kGusts, "sigma: 1,", "sigma: 1e308,") + draggedCraft()),
+            "test: gusts.along.sigma = 1e308: must be 0 to 1e6");
   EXPECT_EQ(airComplaint(with(kGusts, "length: 20", "length: 0") + draggedCraft()),
             "test: gusts.along.length = 0: must be greater than 0");
   EXPECT_EQ(airComplaint(with(kGusts, "length: 3", "length: 0.01") + draggedCraft()),

@@ -59,6 +59,9 @@ class HOVERCRAFT_PUBLIC Gusts {
   /// From the tick before to `tick`.
   void advance(std::size_t body, std::int64_t seed, Tick tick, GustState& state) const;
 
+  /// Whether a state from outside can be one of a run: within 100 standard deviations.
+  bool canBe(const GustState& state) const;
+
   /// Along the mean wind, across it and vertical, m/s.
   Vector3 velocity(const GustState& state) const {
     return {axes_[0].output(&state[0]), axes_[1].output(&state[2]), axes_[2].output(&state[4])};

@@ -7,6 +7,7 @@
 #include <geometry_msgs/Pose.h>
 #include <ros/node_handle.h>
 #include <ros/service_client.h>
+#include <ros/time.h>
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/scenario.h"
@@ -39,7 +40,7 @@ class HOVERCRAFT_PUBLIC CraftPlacer {
     geometry_msgs::Pose pose;  // of its craft
     std::string world_frame;
     bool is_there = false;
-    bool is_held = false;
+    ros::WallTime held_until;  // RViz says now and then that it holds one
     geometry_msgs::Pose shown;
   };
 

@@ -47,9 +47,9 @@ HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent applyWrenchEvent(
 /// Whether an event of kind kSetWind says a wind.
 HOVERCRAFT_PUBLIC bool isWind(const hovercraft_sim::RunEvent& event);
 constexpr const char* kWindRuleText =
-    "wind: must be three numbers that are finite, and so must its speed";
+    "wind: must be three finite numbers, and its speed at most 1e6 m/s";
 
-/// @throws std::invalid_argument if the wind or its speed is not finite.
+/// @throws std::invalid_argument if it is none (kWindRuleText).
 HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent setWindEvent(
     const hovercraft_sim::SetWind::Request& request);
 

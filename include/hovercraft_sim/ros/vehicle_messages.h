@@ -36,10 +36,12 @@ constexpr const char* kActuatorCommandTopic = "actuator_command";
 constexpr const char* kStateTopic = "state";
 constexpr const char* kCommandsTopic = "commands";
 
-/// Whether the true odometry may be on it: a topic below the craft's namespace, truth/odom.
-HOVERCRAFT_PUBLIC bool isTopicOfCraft(const std::string& topic);
+/// Whether the true odometry may be on it: a topic below the craft's namespace, truth/odom, whose
+/// first and last parts are no topic of something else.
+HOVERCRAFT_PUBLIC bool isTopicForTruth(const std::string& topic);
 constexpr const char* kTruthOdomRuleText =
-    "must be a topic below the craft's namespace, such as truth/odom";
+    "must be a topic below the craft's namespace, such as truth/odom, and not that of something "
+    "else";
 
 /// Simulated time as ROS time: epoch + n·h, from whole nanoseconds.
 HOVERCRAFT_PUBLIC ros::Time stampOf(const ros::Time& epoch, std::int64_t time_ns);

@@ -4,10 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/math/vector.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft {
+
+/// The fastest mean wind, and the greatest sigma of gusts, that a run is given, m/s: far beyond any
+/// air, and far from where its square overflows.
+constexpr double kFastestWind = 1e6;
+
+/// Whether a mean wind (m/s) may be set while a run goes on: finite, at most kFastestWind.
+HOVERCRAFT_PUBLIC bool canBeWind(const Vector3& wind_W);
+
+/// Whether two vectors have the same bits, signs of zeros too.
+bool haveSameBits(const Vector3& a, const Vector3& b);
 
 /// The keys `wind` and `gusts` of a scenario whose step size is known.
 /// @throws std::invalid_argument with key path and rule.
