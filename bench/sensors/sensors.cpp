@@ -207,6 +207,7 @@ void benchLaser() {
 void benchImu(const char* name, const std::string& noise) {
   Reader imu(scenarioOf("    sensors: {imu: {kind: imu, rate: 200" + noise + "}}\n", ""));
   std::vector<double> times;
+  times.reserve(kTurns);
   Tick tick = 0;
   for (int turn = 0; turn < kTurns; ++turn) {
     times.push_back(nanosecondsOf(100000, [&](int /*i*/) { imu.read(tick += 5); }));
@@ -217,6 +218,7 @@ void benchImu(const char* name, const std::string& noise) {
 void benchStep(const char* name, const std::string& sensors) {
   Simulation simulation(scenarioOf(sensors, ""));
   std::vector<double> times;
+  times.reserve(kTurns);
   for (int turn = 0; turn < kTurns; ++turn) {
     times.push_back(nanosecondsOf(100000, [&](int /*i*/) { simulation.step(); }));
   }

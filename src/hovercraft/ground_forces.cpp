@@ -12,7 +12,7 @@ Wrench GroundForces::wrenchInBody(const BodyMotion& motion, const Environment& e
                                   const FanSpeeds& speeds) const {
   if (planar_load_) return cushion_->planarWrenchInBody(motion, speeds, *planar_load_);
   if (pads_.empty()) return cushion_->wrenchInBody(motion, speeds, *environment.ground);
-  const Wrench standing = pads_.wrenchInBody(motion, *environment.bare_ground);
+  Wrench standing = pads_.wrenchInBody(motion, *environment.bare_ground);
   if (!cushion_) return standing;
   return cushion_->wrenchInBody(motion, speeds, *environment.ground) + standing;
 }

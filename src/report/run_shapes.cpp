@@ -107,6 +107,7 @@ void addSkirt(const hovercraft::VehicleScenario& vehicle, std::vector<RunShape>&
 std::vector<RunShape> shapesOf(const hovercraft::VehicleScenario& vehicle, bool is_craft) {
   std::vector<RunShape> shapes;
   const char* const role = is_craft ? "hull" : "body";
+  shapes.reserve(vehicle.parts.size());
   for (const hovercraft::PartScenario& part : vehicle.parts) {
     shapes.push_back(placed(part.shape, part.p_HP, part.rpy, role));
   }

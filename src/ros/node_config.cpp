@@ -13,6 +13,7 @@
 #include <ros/package.h>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"

@@ -10,11 +10,13 @@ namespace {
 
 Matrix3 loadMatrix(const double* numbers) {
   Matrix3 A;
-  for (int column = 0; column < 3; ++column) A.col(column) = loadVector(numbers + 3 * column);
+  for (Eigen::Index column = 0; column < 3; ++column) {
+    A.col(column) = loadVector(numbers + 3 * column);
+  }
   return A;
 }
 void storeMatrix(const Matrix3& A, double* numbers) {
-  for (int column = 0; column < 3; ++column) {
+  for (Eigen::Index column = 0; column < 3; ++column) {
     storeVector(A.col(column), numbers + 3 * column);
   }
 }
@@ -132,12 +134,12 @@ void OdometryModel::spread(const Vector3& way, double* memory) const {
     return spread_W;
   };
   const Matrix3 A = -skew(way);
-  const Matrix3 At = A.transpose();
+  const Matrix3 A_transposed = A.transpose();
   const Matrix3 pp = loadMatrix(blocks);
   const Matrix3 pr = loadMatrix(blocks + 9);
   const Matrix3 rr = loadMatrix(blocks + 18);
   const Matrix3 turned = product(A, pr.transpose());
-  const Matrix3 back = product(product(A, rr), At);
+  const Matrix3 back = product(product(A, rr), A_transposed);
   const Matrix3 both = turned + turned.transpose();
   storeMatrix((pp + both) + (back + added(linear_.white(), linear_axes_)), blocks);
   storeMatrix(pr + product(A, rr), blocks + 9);

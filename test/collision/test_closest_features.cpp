@@ -101,6 +101,25 @@ std::vector<ConvexPolyhedron> degenerateBodies() {
   return bodies;
 }
 
+/// Two bodies, the second one turned, apart in some directions by some gaps. @param cases counted.
+void checkDegeneratePair(const ConvexPolyhedron& A, const ConvexPolyhedron& B,
+                         const Quaternion& turn, int& cases) {
+  const double reach = A.data().radius + B.data().radius;
+  const std::vector<Vector3> directions = {{1, 0, 0}, {0, 0, 1}, {1, 1, 0}, {1, 1, 1}, {0.5, 0, 1}};
+  for (const Vector3& direction : directions) {
+    for (const double gap : {1.0, 1e-3, 1e-9, 0.0, -1e-6}) {
+      if (cases++ % testing::kShare != 0) continue;
+      SCOPED_TRACE(::testing::Message()
+                   << "gap " << gap << ", direction " << direction.transpose());
+      const Pose X_WA;
+      Pose X_WB{rotationMatrix(normalized(turn)), Vector3(1.25 * reach * direction)};
+      setGap(A, X_WA, B, X_WB, gap * reach);
+      FeaturePair last;
+      checkAgainstBruteForce(A, X_WA, B, X_WB, closestFeatures(A, X_WA, B, X_WB, last));
+    }
+  }
+}
+
 // Parallel faces and edges, vertices over shared boundaries, corners on corners, tilts that
 // rounding hides, needles, sheets, 1e-6 to 1e6 in size.
 TEST(ClosestFeatures, DegenerateCasesEndAndAgreeWithBruteForce) {
@@ -111,26 +130,12 @@ TEST(ClosestFeatures, DegenerateCasesEndAndAgreeWithBruteForce) {
                                          quaternionFromAxisAngle(Vector3::UnitY(), 1e-9),
                                          quaternionFromAxisAngle(Vector3(0.6, 0.8, 0.0), 1e-7),
                                          quaternionFromAxisAngle(Vector3::UnitX(), 1e-15)};
-  const std::vector<Vector3> directions = {{1, 0, 0}, {0, 0, 1}, {1, 1, 0}, {1, 1, 1}, {0.5, 0, 1}};
   int cases = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     for (std::size_t k = i; k < bodies.size(); ++k) {
-      const double reach = bodies[i].data().radius + bodies[k].data().radius;
       for (std::size_t turn = 0; turn < turns.size(); ++turn) {
-        for (const Vector3& direction : directions) {
-          for (const double gap : {1.0, 1e-3, 1e-9, 0.0, -1e-6}) {
-            if (cases++ % testing::kShare != 0) continue;
-            const Pose X_WA;
-            Pose X_WB{rotationMatrix(normalized(turns[turn])), Vector3(1.25 * reach * direction)};
-            setGap(bodies[i], X_WA, bodies[k], X_WB, gap * reach);
-            FeaturePair last;
-            checkAgainstBruteForce(bodies[i], X_WA, bodies[k], X_WB,
-                                   closestFeatures(bodies[i], X_WA, bodies[k], X_WB, last));
-            ASSERT_FALSE(HasFailure())
-                << "bodies " << i << ", " << k << ", turn " << turn << ", gap " << gap
-                << ", direction " << direction.transpose();
-          }
-        }
+        checkDegeneratePair(bodies[i], bodies[k], turns[turn], cases);
+        ASSERT_FALSE(HasFailure()) << "bodies " << i << ", " << k << ", turn " << turn;
       }
     }
   }

@@ -107,7 +107,7 @@ TEST(Gusts, AreStationaryFromTheirStartOnWhateverTheStep) {
 TEST(Gusts, OfALongerStepHaveTheSameLaw) {
   const GustAxis axis = {1.0, 15.0};
   const GustParameters parameters = {GustModel::kDryden, axis, axis, axis};
-  const auto varianceAfter = [&](double step, int steps) {
+  const auto variance_after = [&](double step, int steps) {
     const Gusts gusts(parameters, kSpeed, step, {"craft"});
     Vector3 sum = Vector3::Zero();
     constexpr int kSeeds = 40000;
@@ -119,8 +119,8 @@ TEST(Gusts, OfALongerStepHaveTheSameLaw) {
     }
     return Vector3(sum / kSeeds);
   };
-  const Vector3 one = varianceAfter(0.5, 1);
-  const Vector3 ten = varianceAfter(0.05, 10);
+  const Vector3 one = variance_after(0.5, 1);
+  const Vector3 ten = variance_after(0.05, 10);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(ten[i] / one[i], 1.0, 6.0 * std::sqrt(4.0 / 40000));
 }
 

@@ -112,8 +112,8 @@ TEST(RayScene, AgreesWithAMarchAlongTheBeam) {
   };
   int hits = 0;
   for (int scene = 0; scene < 100; ++scene) {
-    std::vector<Vector3> cloud;
-    for (int i = 0; i < 12; ++i) cloud.push_back(point(1.0));
+    std::vector<Vector3> cloud(12);
+    for (Vector3& corner : cloud) corner = point(1.0);
     const ConvexPolyhedron hull = convexHull(cloud, "cloud");
     const Pose X_WT = poseAt(point(3.0), point(3.0));
     const Pose X_WS = poseAt(point(1.0), point(3.0));

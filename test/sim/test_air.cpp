@@ -169,8 +169,8 @@ TEST(Air, AScenarioComesBackFromItsText) {
 
 // The gust of a tick is held during its step: a smooth problem between two ticks. h^p to h^p/2^p.
 TEST(Air, EachStepperKeepsItsOrderInGusts) {
-  const auto errorOf = [](const std::string& integrator, double step, double reference_step) {
-    const auto endOf = [&](double h, const std::string& kind) {
+  const auto error_of = [](const std::string& integrator, double step, double reference_step) {
+    const auto end_of = [&](double h, const std::string& kind) {
       // One step of 0.1 s in the wind of tick 0, cut into pieces of h.
       Scenario scenario = scenarioOf(kGusts + draggedCraft(kind));
       const Vector3 wind = Simulation(scenario).windAt(0);
@@ -181,15 +181,15 @@ TEST(Air, EachStepperKeepsItsOrderInGusts) {
       flyOn(simulation, static_cast<Tick>(std::llround(0.4 / h)));
       return simulation.motion(0).p_WB;
     };
-    return norm(endOf(step, integrator) - endOf(reference_step, "rk4"));
+    return norm(end_of(step, integrator) - end_of(reference_step, "rk4"));
   };
-  const auto orderOf = [&](const std::string& integrator) {
-    return std::log2(errorOf(integrator, 0.04, 0.001) / errorOf(integrator, 0.02, 0.001));
+  const auto order_of = [&](const std::string& integrator) {
+    return std::log2(error_of(integrator, 0.04, 0.001) / error_of(integrator, 0.02, 0.001));
   };
-  EXPECT_NEAR(orderOf("euler"), 1.0, 0.1);
-  EXPECT_NEAR(orderOf("semi_implicit_euler"), 1.0, 0.1);
-  EXPECT_NEAR(orderOf("heun"), 2.0, 0.1);
-  EXPECT_NEAR(orderOf("rk4"), 4.0, 0.2);
+  EXPECT_NEAR(order_of("euler"), 1.0, 0.1);
+  EXPECT_NEAR(order_of("semi_implicit_euler"), 1.0, 0.1);
+  EXPECT_NEAR(order_of("heun"), 2.0, 0.1);
+  EXPECT_NEAR(order_of("rk4"), 4.0, 0.2);
 }
 
 TEST(Air, APolarDrivesTheCraftToTheWind) {
