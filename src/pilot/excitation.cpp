@@ -32,13 +32,20 @@ double exactLog(double x) {
   return y + exponent * kLn2;
 }
 
+/// (exp(x) - 1)/x. Near 0, where the difference would keep no digit, by its series.
+double growthMean(double x) {
+  if (std::abs(x) > 0.5) return (exactExp(x) - 1.0) / x;
+  double sum = 0.0;
+  for (int k = 16; k >= 1; --k) sum = 1.0 + sum * x / (k + 1);  // x^k/(k + 1)!
+  return sum;
+}
+
 /// Turns of a chirp until t, 1.
 double turnsAt(const Chirp& chirp, double t) {
   const double f0 = chirp.first_frequency;
   const double f1 = chirp.last_frequency;
   if (!chirp.is_logarithmic || f0 == f1) return (f0 + 0.5 * (f1 - f0) * (t / chirp.duration)) * t;
-  const double growth = exactLog(f1 / f0);
-  return f0 * chirp.duration / growth * (exactExp(growth * (t / chirp.duration)) - 1.0);
+  return f0 * t * growthMean(exactLog(f1 / f0) * (t / chirp.duration));
 }
 
 }  // namespace

@@ -141,7 +141,7 @@ void addStep(Measures& measures, const Track& track, const StepPart& part, const
   for (std::size_t i = part.end - tail; i < part.end; ++i) to += answerOf(track[i], response);
   to /= static_cast<double>(tail);
   add(measures, name + ": settles at", units[static_cast<std::size_t>(response)], factor * to);
-  if (to == from) return;
+  if (std::abs(to - from) < kLeastResponse) return;
   const Value share = [&](const PlanarMotion& m) {
     return (answerOf(m, response) - from) / (to - from);
   };
@@ -235,10 +235,11 @@ Measures figureOfEightMeasures(const Track& track, std::size_t reversal, Side fi
   return measures;
 }
 
-Measures stopMeasures(const Track& track) {
+Measures stopMeasures(const Track& track, double end_speed) {
   const FloatingPointEnvironment environment;
   const PlanarMotion& begin = track.front();
   const PlanarMotion& end = track.back();
+  if (!(begin.surge > end_speed && end.surge <= end_speed)) return {};
   const Reach reach = reachOf(begin, end, Side::kStarboard);
   double way = 0.0;
   for (std::size_t i = 0; i + 1 < track.size(); ++i) {
@@ -260,9 +261,9 @@ Measures stepMeasures(const Track& track, const Steps& steps) {
   for (std::size_t step = 0; step < steps.levels.size(); ++step) {
     const double border = track.front().time + steps.hold * static_cast<double>(step + 1);
     std::size_t end = begin;
-    // Half a decision before the border: times are rounded.
+    // Times are rounded: just before the border is on it.
     while (end < track.size() && track[end].time < border - 1e-9 * steps.hold) ++end;
-    if (end == begin || (step + 1 < steps.levels.size() && end == track.size())) break;
+    if (end == begin || end == track.size()) break;  // cut off
     addStep(measures, track, {begin, end}, "step " + std::to_string(step + 1), steps.response);
     begin = end;
   }

@@ -67,6 +67,7 @@ Pilot::Pilot(PilotPlan plan) : plan_(std::move(plan)) {
 
 const Levels& Pilot::decide(const PlanarMotion& motion) {
   const FloatingPointEnvironment environment;
+  last_time_ = motion.time;
   // A manoeuvre that ends hands over to the next one at the same decision.
   while (!isDone()) {
     if (isApproaching(motion)) return levels_;
@@ -155,9 +156,11 @@ void Pilot::end(std::string reason) {
   flown.is_complete = reason.empty();
   flown.reason = reason;
   flown.begin = begin_;
-  if (!track_.empty()) {
+  flown.execute = flown.end = last_time_;
+  if (track_.empty()) {
+    flown.reason += ", before the first execute";
+  } else {
     flown.execute = track_.front().time;
-    flown.end = track_.back().time;
     flown.measures = measures();
   }
   flown_.push_back(std::move(flown));
@@ -189,7 +192,7 @@ Measures Pilot::measures() const {
     own = figureOfEightMeasures(track_, executes_.size() > 1 ? executes_[1] : track_.size(),
                                 eight->first);
   }
-  if (std::get_if<Stop>(&task) != nullptr) own = stopMeasures(track_);
+  if (const auto* stop = std::get_if<Stop>(&task)) own = stopMeasures(track_, stop->end_speed);
   measures.insert(measures.end(), own.begin(), own.end());
   return measures;
 }

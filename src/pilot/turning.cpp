@@ -13,11 +13,16 @@ PlanarMotion MotionWatch::see(double time, const Vector3& p_WB, const Quaternion
   const FloatingPointEnvironment environment;
   const Matrix3 R_WB = rotationMatrix(q_WB);
   const double angle = angleOf(R_WB(1, 0), R_WB(0, 0));
-  const double turns = has_seen_ ? std::round((heading_ - angle) / (2.0 * kPi)) : 0.0;
-  heading_ = angle + turns * (2.0 * kPi);
-  has_seen_ = true;
+  double turns = 0.0;
+  if (last_) {
+    // Of the headings that the angle may be, the one next to where the yaw rates lead.
+    const double turn = 0.5 * (last_->yaw_rate + w_WB.z()) * (time - last_->time);
+    turns = std::round((last_->heading + turn - angle) / (2.0 * kPi));
+  }
   const Vector3 v_WB_B = transposeTimes(R_WB, v_WB);
-  return {time, p_WB.x(), p_WB.y(), heading_, v_WB_B.x(), v_WB_B.y(), w_WB.z()};
+  last_ = PlanarMotion{time,       p_WB.x(),   p_WB.y(), angle + turns * (2.0 * kPi),
+                       v_WB_B.x(), v_WB_B.y(), w_WB.z()};
+  return *last_;
 }
 
 }  // namespace hovercraft

@@ -93,6 +93,21 @@ TEST(Excitation, TheFrequencyOfAChirpGoesFromTheFirstToTheLastOne) {
   }
 }
 
+TEST(Excitation, ALogarithmicChirpOfNearlyOneFrequencyKeepsItsDigits) {
+  // f0 t (1 + x/2 + x²/6) turns with x = ln(f1/f0) t/T; further terms are below 1e-18.
+  for (const double difference : {1e-15, -1e-15, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6}) {
+    const Chirp chirp = {{0.0}, {1.0}, 2.0, 2.0 * (1.0 + difference), 100.0, true};
+    for (double t = 0.0; t <= 100.0; t += 3.7) {
+      const double x = std::log1p(difference) * (t / 100.0);
+      const double turns = 2.0 * t * (1.0 + x / 2.0 + x * x / 6.0);
+      EXPECT_NEAR(levelAt(chirp, t), std::sin(2.0 * kPi * (turns - std::floor(turns))), 1e-12)
+          << difference << " at " << t;
+    }
+  }
+  const Chirp nextToIt = {{0.0}, {1.0}, 2.0, std::nextafter(2.0, 3.0), 100.0, true};
+  EXPECT_NEAR(levelAt(nextToIt, 0.125), 1.0, 1e-12);
+}
+
 TEST(Excitation, AChirpMayGoDownAndMayStay) {
   const Chirp down = {{0.0}, {1.0}, 3.0, 0.2, 10.0, true};
   const double growth = std::log(0.2 / 3.0);

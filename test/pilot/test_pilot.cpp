@@ -219,6 +219,29 @@ TEST(Pilot, AStopOfACraftThatStandsIsNotComplete) {
   const FlownManoeuvre flown = fly(manoeuvreOf(Stop{{0.0, 0.0}, 0.0}), craft);
   EXPECT_FALSE(flown.is_complete);
   EXPECT_NE(flown.reason.find("end_speed"), std::string::npos);
+  EXPECT_TRUE(has(flown, "approach speed"));
+  EXPECT_FALSE(has(flown, "head reach"));
+  EXPECT_FALSE(has(flown, "time to stop"));
+}
+
+TEST(Pilot, AStopThatNeverStopsHasNoReach) {
+  Nomoto craft;
+  craft.thrust_gain = 1.0;
+  Manoeuvre stop = manoeuvreOf(Stop{{0.0, 0.0}, 0.0});  // drag alone never stops it
+  stop.longest = 3.0;
+  const FlownManoeuvre flown = fly(stop, craft);
+  EXPECT_FALSE(flown.is_complete);
+  EXPECT_EQ(flown.measures.size(), 2U) << toText(flown);  // those of the approach
+}
+
+TEST(Pilot, AStopThatIsGivenUpHasNoReach) {
+  Pilot pilot(planOf(manoeuvreOf(Stop{{0.0, 0.0}, 0.1})));
+  PlanarMotion motion;
+  for (motion.surge = 2.0; motion.surge > 1.0; motion.surge -= 0.1, motion.time += 0.1) {
+    pilot.decide(motion);
+  }
+  pilot.giveUp("the run began anew");
+  EXPECT_EQ(pilot.flown().at(0).measures.size(), 2U) << toText(pilot.flown()[0]);
 }
 
 TEST(Pilot, AStepOfAFirstOrderLagHasItsClosedForm) {
@@ -243,7 +266,7 @@ TEST(Measures, AStepOfSecondOrderOvershootsByItsClosedForm) {
   const double zeta = 0.3;
   const double omega = 4.0;
   Track track;
-  for (int i = 0; i <= 10000; ++i) {
+  for (int i = 0; i <= 10001; ++i) {
     const double t = 0.001 * i;
     const double damped = omega * std::sqrt(1.0 - zeta * zeta);
     PlanarMotion motion;
@@ -258,6 +281,37 @@ TEST(Measures, AStepOfSecondOrderOvershootsByItsClosedForm) {
   EXPECT_NEAR(measures[0].value, -180.0 / kPi, 0.01);
   EXPECT_NEAR(measures[2].value, 100.0 * std::exp(-kPi * zeta / std::sqrt(1.0 - zeta * zeta)),
               0.01);
+}
+
+/// At a speed ahead each 0.1 s until a time.
+Track rampOfSpeed(double end, double gain) {
+  Track track;
+  for (int i = 0; 0.1 * i <= end + 1e-9; ++i) {
+    PlanarMotion motion;
+    motion.time = 0.1 * i;
+    motion.surge = gain * motion.time;
+    track.push_back(motion);
+  }
+  return track;
+}
+
+TEST(Measures, AStepThatWasCutOffHasNone) {
+  const Steps steps = {{{1.0}, {2.0}}, 2.0, Response::kSurge};
+  // Where it settles, rise time and overshoot of each that was held to its end.
+  EXPECT_EQ(stepMeasures(rampOfSpeed(4.0, 1.0), steps).size(), 6U);
+  EXPECT_EQ(stepMeasures(rampOfSpeed(3.9, 1.0), steps).size(), 3U);
+  EXPECT_EQ(stepMeasures(rampOfSpeed(2.0, 1.0), steps).size(), 3U);
+  EXPECT_EQ(stepMeasures(rampOfSpeed(1.9, 1.0), steps).size(), 0U);
+}
+
+TEST(Measures, NoiseIsNoResponse) {
+  const Steps steps = {{{1.0}}, 2.0, Response::kSurge};
+  for (const double gain : {1e-17, -1e-17, 1e-8, 0.0}) {
+    const Measures measures = stepMeasures(rampOfSpeed(2.0, gain), steps);
+    ASSERT_EQ(measures.size(), 1U) << gain;
+    EXPECT_EQ(measures[0].name, "step 1: settles at");
+  }
+  EXPECT_EQ(stepMeasures(rampOfSpeed(2.0, 1e-5), steps).size(), 3U);
 }
 
 TEST(Pilot, TheApproachHasTheHelmAmidships) {
@@ -308,6 +362,37 @@ TEST(Pilot, ThatGivesUpFliesNothingMore) {
   EXPECT_TRUE(pilot.decide(craft.motion).empty());
   ASSERT_EQ(pilot.flown().size(), 1U);
   EXPECT_EQ(pilot.flown()[0].reason, "the run was reset");
+}
+
+TEST(Pilot, WhatIsGivenUpDuringItsApproachEndsThen) {
+  Manoeuvre manoeuvre = manoeuvreOf(TurningCircle{35.0, 540.0, Side::kStarboard});
+  manoeuvre.approach = 5.0;
+  Pilot pilot(planOf(manoeuvre));
+  PlanarMotion motion;
+  for (motion.time = 10.0; motion.time < 12.0; motion.time += 0.5) pilot.decide(motion);
+  pilot.giveUp("the run began anew");
+  ASSERT_EQ(pilot.flown().size(), 1U);
+  const FlownManoeuvre& flown = pilot.flown()[0];
+  EXPECT_EQ(flown.begin, 10.0);
+  EXPECT_EQ(flown.execute, 11.5);
+  EXPECT_EQ(flown.end, 11.5);
+  EXPECT_EQ(flown.reason, "the run began anew, before the first execute");
+  EXPECT_TRUE(flown.measures.empty());
+}
+
+TEST(MotionWatch, CountsTurnsByTheYawRateWhereMotionsAreFarBetween) {
+  // 5 rad and more from one motion to the next, to either side, at a rate that goes up.
+  for (const double side : {1.0, -1.0}) {
+    MotionWatch watch;
+    const Vector3 none = Vector3::Zero();
+    for (int i = 0; i <= 20; ++i) {
+      const double t = 1.0 * i;
+      const double angle = side * (5.0 * t + 0.1 * t * t);
+      const Quaternion q = {std::cos(0.5 * angle), {0.0, 0.0, std::sin(0.5 * angle)}};
+      const Vector3 w_WB(0.0, 0.0, side * (5.0 + 0.2 * t));
+      EXPECT_NEAR(watch.see(t, none, q, none, w_WB).heading, angle, 1e-9);
+    }
+  }
 }
 
 TEST(MotionWatch, CountsWholeTurns) {

@@ -33,9 +33,12 @@ HOVERCRAFT_PUBLIC Measures turningCircleMeasures(const Track& track, Side side);
 /// @param reversal index of the track at which the helm went to the other side; its size: never.
 HOVERCRAFT_PUBLIC Measures figureOfEightMeasures(const Track& track, std::size_t reversal,
                                                  Side first);
-HOVERCRAFT_PUBLIC Measures stopMeasures(const Track& track);
-/// Of each step but the first, which has none before it: where the answer settles, rise time from
-/// 10 to 90 %, overshoot. Where it settles is the mean over the last tenth of the step.
+/// None unless the craft was faster ahead than the end speed, m/s, and at the end no more.
+HOVERCRAFT_PUBLIC Measures stopMeasures(const Track& track, double end_speed);
+/// Of each step that was held to its end: where the response settles, rise time from 10 to 90 %,
+/// overshoot. It begins with the response at the change of levels, and settles at the mean over the
+/// last tenth of the step. A change of less than kLeastResponse has no rise time and no overshoot.
 HOVERCRAFT_PUBLIC Measures stepMeasures(const Track& track, const Steps& steps);
+constexpr double kLeastResponse = 1e-6;  // m/s, rad/s, rad
 
 }  // namespace hovercraft

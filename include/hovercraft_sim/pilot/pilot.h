@@ -19,7 +19,7 @@ struct FlownManoeuvre {
   bool is_complete = true;  // false: it was given up, or never began
   std::string reason;       // why it was given up
   double begin = 0.0;       // s: of the approach
-  double execute = 0.0;     // s: of the first execute
+  double execute = 0.0;     // s: of the first execute; if it was given up before, its end
   double end = 0.0;         // s
   Measures measures;
 };
@@ -68,6 +68,7 @@ class HOVERCRAFT_PUBLIC Pilot {
   Track track_;                        // from the first execute on
   std::vector<std::size_t> executes_;  // indices of it
   double begin_ = 0.0;                 // s, of the approach
+  double last_time_ = 0.0;             // s, of the last decision
   bool has_begun_ = false;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "hovercraft_sim/math/elementary.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/quaternion.h"
@@ -30,8 +32,8 @@ inline double turned(const PlanarMotion& begin, const PlanarMotion& now, Side si
   return side == Side::kPort ? to_port : -to_port;
 }
 
-/// Makes planar motions of those of a body; counts whole turns, for which it must see a motion at
-/// least twice a turn.
+/// Makes planar motions of those of a body. Counts whole turns by the yaw rate: between two motions
+/// that it sees, the mean of theirs must lead to less than half a turn from where the craft is.
 class HOVERCRAFT_PUBLIC MotionWatch {
  public:
   /// @param time s. @param p_WB m. @param q_WB unit. @param v_WB m/s, in W. @param w_WB rad/s, in
@@ -40,8 +42,7 @@ class HOVERCRAFT_PUBLIC MotionWatch {
                    const Vector3& w_WB);
 
  private:
-  bool has_seen_ = false;
-  double heading_ = 0.0;  // rad, the last one
+  std::optional<PlanarMotion> last_;
 };
 
 }  // namespace hovercraft
