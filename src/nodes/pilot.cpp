@@ -1,6 +1,8 @@
 #include <boost/program_options.hpp>
 #include <exception>
 #include <iostream>
+#include <optional>
+#include <stdexcept>
 #include <string>
 
 #include <ros/callback_queue.h>
@@ -16,8 +18,8 @@ namespace {
 
 constexpr double kPoll = 0.1;  // s, how often a shutdown is looked for
 
-/// The file that is flown; empty if only help was asked for.
-std::string fileOf(int argc, char** argv) {
+/// The file that is flown; nothing if only help was asked for.
+std::optional<std::string> fileOf(int argc, char** argv) {
   namespace po = boost::program_options;
   std::string file;
   po::options_description options("Options");
@@ -34,9 +36,10 @@ std::string fileOf(int argc, char** argv) {
                  "Flies manoeuvres with a craft of a simulation that runs, and says what they came "
                  "to.\nWithout ROS running: simulate SCENARIO.yaml --pilot FILE.yaml\n\n"
               << options;
-    return "";
+    return std::nullopt;
   }
   po::notify(values);
+  if (file.empty()) throw std::invalid_argument("FILE.yaml: the name must not be empty");
   return file;
 }
 
@@ -53,8 +56,11 @@ bool fly(const ros::NodeHandle& handle, const std::string& file) {
   };
   while (ros::ok() && !node.isDone()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kPoll));
+    node.watchPublisher();
     tell();
   }
+  // roscpp sends from a thread of its own: what was published last is to go before this ends.
+  if (ros::ok()) ros::WallDuration(kPoll).sleep();
   return node.isDone() && node.pilot().isOver();
 }
 
@@ -62,13 +68,14 @@ bool fly(const ros::NodeHandle& handle, const std::string& file) {
 
 int main(int argc, char** argv) {
   try {
-    ros::init(argc, argv, "pilot");
-    const std::string file = fileOf(argc, argv);
-    if (file.empty()) return 0;
+    // Of two nodes of one name the first is shut down; __name:= still names this one.
+    ros::init(argc, argv, "pilot", ros::init_options::AnonymousName);
+    const auto file = fileOf(argc, argv);
+    if (!file) return 0;
     // The last handle takes the console with it: this one is there until an error was reported.
     const ros::NodeHandle handle;
     try {
-      if (fly(handle, file)) return 0;
+      if (fly(handle, *file)) return 0;
       std::cerr << "pilot: the run ended, or began anew, before the last manoeuvre did\n";
     } catch (const std::exception& error) {
       ROS_FATAL("%s", error.what());

@@ -8,6 +8,7 @@
 
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/manoeuvre_messages.h"
+#include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
 namespace hovercraft_ros {
@@ -19,17 +20,13 @@ bool hasOthers(const hovercraft::Command& command) {
   return command.engines > hovercraft::kAllEngines;
 }
 
-hovercraft::ObservedMotion observed(const hovercraft_sim::State& state) {
-  return {static_cast<hovercraft::Tick>(state.tick), fromMessage(state.pose.position),
-          fromMessage(state.pose.orientation), fromMessage(state.velocity),
-          fromMessage(state.angular_velocity)};
-}
-
 }  // namespace
 
 PilotNode::PilotNode(const ros::NodeHandle& handle, const hovercraft::Scenario& scenario,
                      hovercraft::PilotFile file)
-    : craft_(scenario.vehicles[file.vehicle]), pilot_(std::move(file), scenario.step_ns) {
+    : step_ns_(scenario.step_ns),
+      craft_(scenario.vehicles[file.vehicle]),
+      pilot_(std::move(file), scenario.step_ns) {
   ros::NodeHandle own(handle, craft_.name);
   // In lockstep the simulation waits for the first answer even if it came before its connection.
   const ros::SubscriberStatusCallback repeat = [this](const ros::SingleSubscriberPublisher& to) {
@@ -55,31 +52,53 @@ bool PilotNode::isNewRun(const hovercraft_sim::State& state) const {
 
 void PilotNode::answer(const hovercraft_sim::State& state) {
   if (is_done_) return;
-  const auto tick = static_cast<hovercraft::Tick>(state.tick);
-  if (isNewRun(state)) {
-    pilot_.giveUp("the run began anew");
-    tell(state.header.stamp);
-    is_done_ = true;
+  const auto motion = toObservedMotion(state, step_ns_);
+  if (!motion) {
+    ++dropped_;
+    if (drop_warnings_.isDue(steadyNow())) {
+      ROS_WARN(
+          "%s: dropped a state: its numbers must be finite, its orientation a unit quaternion, "
+          "its tick one that a simulation can reach (%lu dropped so far)",
+          states_.getTopic().c_str(), static_cast<unsigned long>(dropped_));
+    }
     return;
   }
-  const bool is_first = !last_;
-  const auto passed = is_first ? 0 : tick - static_cast<hovercraft::Tick>(last_->tick);
-  if (passed > pilot_.periodTicks() && !has_warned_) {
-    has_warned_ = true;
-    ROS_WARN(
-        "states come every %ld ticks, decisions every %ld: the flight is another one than "
-        "with a state for each",
-        static_cast<long>(passed), static_cast<long>(pilot_.periodTicks()));
+  if (isNewRun(state)) {
+    giveUp("the run began anew");
+    return;
   }
-  const bool is_new = is_first || passed > 0;
-  if (is_new && (pilot_.isDue(tick) || passed > pilot_.periodTicks())) {
-    pilot_.decide(observed(state));
-  }
+  const hovercraft::Tick last = last_ ? static_cast<hovercraft::Tick>(last_->tick) : 0;
+  if (last_) warnOfMissed(last, motion->tick);
+  if (pilot_.isDueSince(last, motion->tick)) pilot_.decide(*motion);
   last_ = state;
-  if (pilot_.command().tick == 0) return;  // nothing was decided yet
+  if (motion->tick == 0) return;  // in lockstep too nobody waits for an answer to the start
   send(state);
   tell(state.header.stamp);
   is_done_ = pilot_.isOver();
+}
+
+void PilotNode::warnOfMissed(hovercraft::Tick last, hovercraft::Tick now) {
+  if (!pilot_.hasMissed(last, now)) return;
+  ++missed_;
+  if (!miss_warnings_.isDue(steadyNow())) return;
+  ROS_WARN(
+      "no state at a tick of a decision: states come every %ld ticks, decisions every %ld: the "
+      "flight is another one than with a state for each (%lu late so far)",
+      static_cast<long>(now - last), static_cast<long>(pilot_.periodTicks()),
+      static_cast<unsigned long>(missed_));
+}
+
+void PilotNode::giveUp(const std::string& reason) {
+  pilot_.giveUp(reason);
+  if (last_) tell(last_->header.stamp);
+  is_done_ = true;
+}
+
+void PilotNode::watchPublisher() {
+  if (is_done_) return;
+  const bool has_publisher = states_.getNumPublishers() > 0;
+  if (had_publisher_ && !has_publisher) giveUp("the simulation ended");
+  had_publisher_ = has_publisher;
 }
 
 void PilotNode::send(const hovercraft_sim::State& state) {

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/sim/craft_pilot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,7 @@ CraftPilot::CraftPilot(PilotFile file, std::int64_t step_ns)
   command_.vehicle = file_.vehicle;
   command_.engines = 0;
   command_.thrusts.resize(file_.idle.size());
+  std::copy(file_.idle.begin(), file_.idle.end(), command_.thrusts.begin());
   for (const std::size_t id : file_.channels) {
     // A ThrustCommand is for all three engines.
     const EngineMask mask = id < kFirstActuator ? kAllEngines : maskOf(id);

@@ -106,6 +106,41 @@ TEST_F(PilotedRuns, CommandsComeAtEachPeriodFromTheFirstOneOn) {
   EXPECT_EQ(last_tick_, 2020);
 }
 
+TEST(CraftPilot, DecidesAtTheFirstMotionAtOrAfterEachOfItsTicks) {
+  const Scenario scenario = loadScenario("config/hovercraft.yaml");
+  const CraftPilot pilot(
+      parsePilot("manoeuvres: [{kind: ramp, to: {rear: 4}, duration: 1}]", "plan", scenario),
+      scenario.step_ns);
+  ASSERT_EQ(pilot.periodTicks(), 10);
+  // At 125 Hz: all but each fifth motion is the first one after such a tick.
+  int decisions = 0;
+  for (Tick tick = 8; tick <= 1000; tick += 8)
+    decisions += pilot.isDueSince(tick - 8, tick) ? 1 : 0;
+  EXPECT_EQ(decisions, 100);
+  // Where motions are seen at its own ticks, as in `simulate`, at those alone.
+  for (Tick tick = 1; tick <= 100; ++tick) {
+    EXPECT_EQ(pilot.isDueSince(tick - 1, tick), pilot.isDue(tick)) << tick;
+    EXPECT_FALSE(pilot.hasMissed(tick - 1, tick)) << tick;
+  }
+  EXPECT_FALSE(pilot.isDueSince(20, 20));
+  EXPECT_FALSE(pilot.hasMissed(20, 20));
+  EXPECT_FALSE(pilot.hasMissed(20, 30));
+  EXPECT_TRUE(pilot.hasMissed(24, 32));  // it decides at 32, not at 30
+  EXPECT_TRUE(pilot.hasMissed(20, 40));
+  EXPECT_FALSE(pilot.hasMissed(8, 10));
+}
+
+TEST(CraftPilot, HasTheLevelsOfTheStartUntilItDecides) {
+  Scenario scenario = loadScenario("test/rostest/pilot_rudder.yaml");
+  scenario.vehicles[0].actuators.back().initial = 0.25;
+  const CraftPilot pilot(
+      parsePilot("manoeuvres: [{kind: ramp, to: {rudder: 0.5}, duration: 1}]", "plan", scenario),
+      scenario.step_ns);
+  EXPECT_EQ(pilot.command().tick, 0);
+  EXPECT_EQ(pilot.command().engines, maskOf(kFirstActuator));
+  EXPECT_EQ(pilot.command().thrusts, (ActuatorArray<double>{0.0, 0.0, 0.0, 0.25}));
+}
+
 TEST(CraftPilots, TwoForOneCraftAreRefused) {
   const testing::TestFolder folder;
   const Scenario scenario = loadScenario("config/hovercraft.yaml");

@@ -35,10 +35,17 @@ class HOVERCRAFT_PUBLIC CraftPilot {
   std::size_t vehicle() const { return file_.vehicle; }
   /// Whether it decides at a tick.
   bool isDue(Tick tick) const { return tick > 0 && tick % file_.period_ticks == 0; }
+  /// Whether it decides at `now`, where it last saw a motion at `last`, both 0 or greater: a tick
+  /// at which it should have decided has come since.
+  bool isDueSince(Tick last, Tick now) const {
+    return now / file_.period_ticks > last / file_.period_ticks;
+  }
+  /// Whether one of those ticks lies between the two: the flight is another one than in `simulate`.
+  bool hasMissed(Tick last, Tick now) const { return now > last && isDueSince(last, now - 1); }
   Tick periodTicks() const { return file_.period_ticks; }
   /// The command for the tick of the motion. @param motion at a tick after that of the last one.
   const Command& decide(const ObservedMotion& motion);
-  /// The last one.
+  /// The last one; before the first, at tick 0, the levels that there are then.
   const Command& command() const { return command_; }
 
   /// The plan is flown, and the time after it is over.
