@@ -10,13 +10,13 @@
 namespace hovercraft_ros {
 namespace {
 
-PlayConfig parsed(const std::string& yaml) {
+PlayConfig playConfigOf(const std::string& yaml) {
   return parsePlayConfig(hovercraft::treeOf(yaml, "parameters"), "/play");
 }
 
 std::string errorOf(const std::string& yaml) {
   try {
-    parsed(yaml);
+    playConfigOf(yaml);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -24,7 +24,7 @@ std::string errorOf(const std::string& yaml) {
 }
 
 TEST(PlayConfig, HasItsDefaults) {
-  const PlayConfig config = parsed("file: a b.csv");
+  const PlayConfig config = playConfigOf("file: a b.csv");
   EXPECT_EQ(config.file, "a b.csv");
   EXPECT_EQ(config.settle_ns, 1000000000);
   EXPECT_EQ(config.wanted_subscribers, 1U);
@@ -33,7 +33,7 @@ TEST(PlayConfig, HasItsDefaults) {
 
 TEST(PlayConfig, TakesWhatIsSet) {
   const PlayConfig config =
-      parsed("{file: c.csv, settle: 2.5, wanted_subscribers: 3, ends_launch: true}");
+      playConfigOf("{file: c.csv, settle: 2.5, wanted_subscribers: 3, ends_launch: true}");
   EXPECT_EQ(config.settle_ns, 2500000000);
   EXPECT_EQ(config.wanted_subscribers, 3U);
   EXPECT_TRUE(config.ends_launch);
