@@ -15,9 +15,11 @@ CraftPilot::CraftPilot(PilotFile file, std::int64_t step_ns)
   command_.engines = 0;
   command_.thrusts.resize(file_.idle.size());
   std::copy(file_.idle.begin(), file_.idle.end(), command_.thrusts.begin());
+  const auto is_other = [](std::size_t id) { return id >= kFirstActuator; };
+  const bool has_others = std::any_of(file_.channels.begin(), file_.channels.end(), is_other);
   for (const std::size_t id : file_.channels) {
-    // A ThrustCommand is for all three engines.
-    const EngineMask mask = id < kFirstActuator ? kAllEngines : maskOf(id);
+    // Live, a ThrustCommand is for all three engines, an ActuatorCommand for those that it names.
+    const EngineMask mask = has_others || is_other(id) ? maskOf(id) : kAllEngines;
     command_.engines = static_cast<EngineMask>(command_.engines | mask);
   }
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""pilot in lockstep with another period than the simulation's; beside a second one; when the run begins anew or the simulation ends."""
+"""pilot in lockstep with another period than the simulation's, and when the simulation ends."""
 
 import os
 import subprocess
@@ -13,6 +13,7 @@ import rospkg
 import rospy
 import rostest
 from hovercraft_sim.msg import AppliedCommand, Manoeuvre, State
+from hovercraft_sim.srv import Reset
 from std_srvs.srv import Trigger
 
 from ros_waiting import service, wait_for_connections, wait_until
@@ -23,7 +24,8 @@ ENDLESS = 'manoeuvres: [{kind: ramp, throttle: {rear: 2}, approach: 3600, to: {r
 
 
 def motion(state):
-    return state.pose, state.velocity, state.angular_velocity
+    """As text, which has every bit: classes of a bag's messages are others than those of live ones."""
+    return str((state.pose, state.velocity, state.angular_velocity))
 
 
 class PilotEndsTest(unittest.TestCase):
@@ -88,29 +90,8 @@ class PilotEndsTest(unittest.TestCase):
         for state in compared:
             self.assertEqual(motion(state), motions[state.tick], f'tick {state.tick}')
 
-    def test_b_two_pilots_fly_beside_each_other_until_the_run_begins_anew(self):
-        service('reset', Trigger)()
-        self.start(ENDLESS)
-        self.start(ENDLESS)
-        service('resume', Trigger)()
-        self.wait_for_states()
-        self.assertEqual([pilot.poll() for pilot in self.pilots], [None, None])
-        service('pause', Trigger)()
-        episode = self.heard['state'][-1].episode
-        service('reset', Trigger)()
-        service('resume', Trigger)()
-        self.assertEqual([self.wait_for_end(pilot) for pilot in self.pilots], [1, 1])
-        service('pause', Trigger)()
-        wait_until(lambda: len(self.heard['manoeuvres']) == 2, 'what was given up')
-        last = [state for state in self.heard['state'] if state.episode == episode][-1]
-        for manoeuvre in self.heard['manoeuvres']:
-            self.assertFalse(manoeuvre.complete)
-            self.assertEqual(manoeuvre.reason, 'the run began anew, before the first execute')
-            self.assertEqual(manoeuvre.header.stamp, last.header.stamp)
-            self.assertAlmostEqual(manoeuvre.end, 0.001 * last.tick, places=9)
-
-    def test_c_it_ends_when_the_simulation_does(self):
-        service('reset', Trigger)()
+    def test_b_it_ends_when_the_simulation_does(self):
+        service('reset', Reset)()
         self.start(ENDLESS)
         service('resume', Trigger)()
         self.wait_for_states()
