@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <fmt/format.h>
 
 #include "hovercraft_sim/math/constants.h"
@@ -94,7 +93,10 @@ bool canBeWind(const Vector3& wind_W) {
 }
 
 bool haveSameBits(const Vector3& a, const Vector3& b) {
-  return std::memcmp(a.data(), b.data(), sizeof(double) * 3) == 0;
+  for (int i = 0; i < 3; ++i) {
+    if (a[i] != b[i] || std::signbit(a[i]) != std::signbit(b[i])) return false;
+  }
+  return true;
 }
 
 void parseAir(const ConfigReader& top, Scenario& scenario) {

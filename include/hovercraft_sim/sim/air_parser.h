@@ -18,7 +18,7 @@ constexpr double kFastestWind = 1e6;
 /// Whether a mean wind (m/s) may be set while a run goes on: finite, at most kFastestWind.
 HOVERCRAFT_PUBLIC bool canBeWind(const Vector3& wind_W);
 
-/// Whether two vectors have the same bits, signs of zeros too.
+/// Whether two finite vectors have the same bits, signs of zeros too.
 bool haveSameBits(const Vector3& a, const Vector3& b);
 
 /// The keys `wind` and `gusts` of a scenario whose step size is known.
