@@ -78,9 +78,10 @@ RULES = (
     Rule(r'roslaunch hovercraft_sim sim\.launch truth_odom:=truth/odom', beside=(), until='/hovercraft/truth/odom'),
     Rule(r'rosbag play --clock run\.bag', beside=(ROSCORE,)),
     Rule(r'compare filtered\.bag .*', skip='what a filter said: there is none here'),
-    Rule(r'roslaunch hovercraft_sim sim\.launch map:=true .*', beside=(), until='rostopic echo -n 1 /map/info'),
+    Rule(r'roslaunch hovercraft_sim sim\.launch scenario:=\$PWD/config/senses\.yaml map:=true .*', beside=(), until='rostopic echo -n 1 /map/info'),
     # doc/helm.md
     Rule(r'rosrun hovercraft_sim teleop\.py .*', skip='it reads the keys of a terminal: a test types them'),
+    Rule(r'rosparam load config/helm/joy\.yaml .*', beside=(ROSCORE,)),
     Rule(r'rosrun hovercraft_sim joy_teleop\.py .*', beside=(ROSCORE,), until='/hovercraft/cmd_vel'),
     Rule(r'roslaunch hovercraft_sim autonomy\.launch', beside=(), until='rostopic echo -n 1 --filter "m.pose.pose.position.x > -2" /hovercraft/truth/odom'),
     # doc/time.md

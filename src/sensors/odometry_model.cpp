@@ -134,12 +134,11 @@ void OdometryModel::spread(const Vector3& way, double* memory) const {
     return spread_W;
   };
   const Matrix3 A = -skew(way);
-  const Matrix3 A_transposed = A.transpose();
   const Matrix3 pp = loadMatrix(blocks);
   const Matrix3 pr = loadMatrix(blocks + 9);
   const Matrix3 rr = loadMatrix(blocks + 18);
   const Matrix3 turned = product(A, pr.transpose());
-  const Matrix3 back = product(product(A, rr), A_transposed);
+  const Matrix3 back = product(product(A, rr), Matrix3(A.transpose()));
   const Matrix3 both = turned + turned.transpose();
   storeMatrix((pp + both) + (back + added(linear_.white(), linear_axes_)), blocks);
   storeMatrix(pr + product(A, rr), blocks + 9);

@@ -104,8 +104,8 @@ TEST(Excitation, ALogarithmicChirpOfNearlyOneFrequencyKeepsItsDigits) {
           << difference << " at " << t;
     }
   }
-  const Chirp nextToIt = {{0.0}, {1.0}, 2.0, std::nextafter(2.0, 3.0), 100.0, true};
-  EXPECT_NEAR(levelAt(nextToIt, 0.125), 1.0, 1e-12);
+  const Chirp next_to_it = {{0.0}, {1.0}, 2.0, std::nextafter(2.0, 3.0), 100.0, true};
+  EXPECT_NEAR(levelAt(next_to_it, 0.125), 1.0, 1e-12);
 }
 
 TEST(Excitation, AChirpMayGoDownAndMayStay) {
