@@ -28,14 +28,17 @@ Pads::Pads(const std::vector<Vector3>& vertices_B, double weight, const PadParam
   placed.reserve(vertices_B.size());
   for (const Vector3& p : vertices_B) placed.push_back({p, 0.0});
   const std::vector<MirrorPair> pairs = mirrorPairs(placed);
-  for (const bool alone : {false, true}) {
-    for (const MirrorPair& pair : pairs) {
-      if ((pair[1] < 0) != alone) continue;
-      for (const int index : pair) {
-        if (index >= 0) vertices_B_.push_back(vertices_B[static_cast<std::size_t>(index)]);
-      }
-    }
-    if (!alone) paired_ = vertices_B_.size();
+  const auto add = [&](int index) {
+    vertices_B_.push_back(vertices_B[static_cast<std::size_t>(index)]);
+  };
+  for (const MirrorPair& pair : pairs) {
+    if (pair[1] < 0) continue;
+    add(pair[0]);
+    add(pair[1]);
+  }
+  paired_ = vertices_B_.size();
+  for (const MirrorPair& pair : pairs) {
+    if (pair[1] < 0) add(pair[0]);
   }
   surround();
 }
