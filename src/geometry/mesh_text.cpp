@@ -55,23 +55,27 @@ MeshText::MeshText(const std::string& content, std::string name)
   }
 }
 
+/// @returns whether the last word ended in a backslash, which is no part of it.
+bool MeshText::appendWords(std::vector<MeshWord>& words, std::size_t end, bool is_obj) {
+  bool is_continued = false;
+  while (true) {
+    while (position_ < end && isBlank(content_[position_])) ++position_;
+    if (position_ == end) return is_continued;
+    const std::size_t begin = position_;
+    while (position_ < end && !isBlank(content_[position_])) ++position_;
+    is_continued = is_obj && content_[position_ - 1] == '\\';
+    const std::size_t length = position_ - begin - (is_continued ? 1 : 0);
+    if (length > 0) words.push_back({&content_[begin], length});
+  }
+}
+
 MeshText::LineEnd MeshText::appendLine(std::vector<MeshWord>& words, bool is_obj) {
   if (position_ >= content_.size()) return LineEnd::kEndOfFile;
   ++line_;
   const std::size_t end = std::min(content_.find_first_of("\r\n", position_), content_.size());
   const std::string_view line = std::string_view(content_).substr(position_, end - position_);
   const std::size_t length_of_words = is_obj ? std::min(line.find('#'), line.size()) : line.size();
-  const std::size_t end_of_words = position_ + length_of_words;
-  bool is_continued = false;
-  while (true) {
-    while (position_ < end_of_words && isBlank(content_[position_])) ++position_;
-    if (position_ == end_of_words) break;
-    const std::size_t begin = position_;
-    while (position_ < end_of_words && !isBlank(content_[position_])) ++position_;
-    is_continued = is_obj && content_[position_ - 1] == '\\';
-    const std::size_t length = position_ - begin - (is_continued ? 1 : 0);
-    if (length > 0) words.push_back({&content_[begin], length});
-  }
+  const bool is_continued = appendWords(words, position_ + length_of_words, is_obj);
   const bool is_pair = content_.compare(end, 2, "\r\n") == 0;
   position_ = std::min(end + (is_pair ? 2 : 1), content_.size());
   return is_continued ? LineEnd::kContinued : LineEnd::kPlain;

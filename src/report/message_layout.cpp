@@ -61,6 +61,8 @@ class LayoutParser {
 
  private:
   std::size_t parse(const std::string& type, int depth);
+  static std::size_t shownOf(const MessageLayout::Field& field);
+  static std::size_t leastOf(const MessageLayout::Field& field);
   void addField(MessageLayout::Message& message, const std::string& owner, const std::string& word,
                 const std::string& name, int depth);
   void setType(MessageLayout::Field& field, const std::string& owner, const std::string& type,
@@ -107,6 +109,22 @@ void LayoutParser::setType(MessageLayout::Field& field, const std::string& owner
   field.width = layout_.messages_[field.message].width;
 }
 
+/// Elements that have leaves.
+std::size_t LayoutParser::shownOf(const MessageLayout::Field& field) {
+  constexpr std::size_t kMost = MessageLayout::kMostElements;
+  if (field.length == MessageLayout::kAnyLength) return kMost;
+  if (field.length < 0) return 1;
+  const auto length = static_cast<std::size_t>(field.length);
+  if (length <= kMost) return length;
+  return field.base == MessageLayout::Base::kMessage ? kMost : 0;
+}
+
+/// Bytes that a field takes at least: an array of any length its count.
+std::size_t LayoutParser::leastOf(const MessageLayout::Field& field) {
+  if (field.length == MessageLayout::kAnyLength) return 4;
+  return field.length >= 0 ? static_cast<std::size_t>(field.length) * field.bytes : field.bytes;
+}
+
 void LayoutParser::addField(MessageLayout::Message& message, const std::string& owner,
                             const std::string& word, const std::string& name, int depth) {
   MessageLayout::Field field;
@@ -119,22 +137,13 @@ void LayoutParser::addField(MessageLayout::Message& message, const std::string& 
     if (!digits.empty() && field.length < 0) fail(fmt::format("'{}': is no type", word));
   }
   setType(field, owner, word.substr(0, bracket), depth);
-  const bool is_long = field.length > static_cast<std::int64_t>(MessageLayout::kMostElements);
-  if (field.length == MessageLayout::kAnyLength) field.shown = MessageLayout::kMostElements;
-  if (field.length >= 0) field.shown = is_long ? 0 : static_cast<std::size_t>(field.length);
-  if (field.base == MessageLayout::Base::kMessage && is_long) {
-    field.shown = MessageLayout::kMostElements;
-  }
+  field.shown = shownOf(field);
   // Beyond this nobody looks at single ones; and what has no numbers has nothing to look at,
   // however often it is repeated.
   const bool is_too_wide = message.width + field.shown * field.width > MessageLayout::kMostLeaves;
   if (is_too_wide || field.width == 0) field.shown = 0;
   message.width += field.shown * field.width;
-  const std::size_t least = field.length == MessageLayout::kAnyLength ? 4
-                            : field.length >= 0
-                                ? static_cast<std::size_t>(field.length) * field.bytes
-                                : field.bytes;
-  message.least_bytes = std::min<std::size_t>(message.least_bytes + least, 1U << 30U);
+  message.least_bytes = std::min<std::size_t>(message.least_bytes + leastOf(field), 1U << 30U);
   message.fields.push_back(field);
 }
 
@@ -289,8 +298,14 @@ LeafValue LayoutWalk::valueOf(const MessageLayout::Field& field,
 }
 
 MessageLayout::MessageLayout(const std::string& type, const std::string& definition) {
-  LayoutParser(*this, type, definition);
+  [[maybe_unused]] const LayoutParser parsed(*this, type, definition);
   addLeaves(messages_.back(), "");
+}
+
+LeafKind MessageLayout::kindOf(Base base) {
+  if (base == Base::kBool) return LeafKind::kFlag;
+  if (base == Base::kString) return LeafKind::kText;
+  return base == Base::kTime || base == Base::kDuration ? LeafKind::kTime : LeafKind::kNumber;
 }
 
 void MessageLayout::addLeaves(const Message& message, const std::string& prefix) {
@@ -302,12 +317,7 @@ void MessageLayout::addLeaves(const Message& message, const std::string& prefix)
         addLeaves(messages_[field.message], path + ".");
         continue;
       }
-      const LeafKind kind = field.base == Base::kBool     ? LeafKind::kFlag
-                            : field.base == Base::kString ? LeafKind::kText
-                            : field.base == Base::kTime || field.base == Base::kDuration
-                                ? LeafKind::kTime
-                                : LeafKind::kNumber;
-      leaves_.push_back({path, kind});
+      leaves_.push_back({path, kindOf(field.base)});
     }
   }
 }

@@ -44,6 +44,7 @@ RayTarget::RayTarget(const ConvexPolyhedron& polyhedron, std::int32_t moving_bod
   }
 }
 
+// NOLINTNEXTLINE(readability-function-size): the place for the turned faces is the caller's.
 void castBeams(const BeamFan& fan, const Pose& X_WS, const RayTarget& target, const Pose& X_WT,
                double farthest, std::vector<HalfSpace>& faces, double* ranges) {
   const double radius = target.radius * (1.0 + kGrazing);

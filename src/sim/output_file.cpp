@@ -50,7 +50,7 @@ std::string objectionTo(const std::string& path) {
 }  // namespace
 
 PartialFile::PartialFile(const std::string& path) : path_(path) {
-  const std::string objection = objectionTo(path);
+  std::string objection = objectionTo(path);
   if (!objection.empty()) fail(objection);
   struct stat status {};
   replaces_ = statusOf(path, status);

@@ -30,6 +30,7 @@ class MeshText {
 
   /// Appends the words of the next line. In an OBJ file # begins a comment, and a backslash at the
   /// end continues the line.
+  bool appendWords(std::vector<MeshWord>& words, std::size_t end, bool is_obj);
   LineEnd appendLine(std::vector<MeshWord>& words, bool is_obj);
 
   /// The number of the line that was read last, from 1.

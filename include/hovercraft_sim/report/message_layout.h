@@ -71,6 +71,7 @@ class HOVERCRAFT_PUBLIC MessageLayout {
     std::size_t width = 0;
   };
 
+  static LeafKind kindOf(Base base);
   void addLeaves(const Message& message, const std::string& prefix);
 
   std::vector<Message> messages_;  // the last one is that of the topic
