@@ -25,8 +25,8 @@ class BoundedQuadratic {
     for (std::size_t i = 0; i < count_; ++i) {
       const Vector3 weighted = w2.cwiseProduct(problem.columns[i]);
       b_[i] = dot(weighted, wrench);
-      for (std::size_t k = 0; k < count_; ++k) H_[i][k] = dot(weighted, problem.columns[k]);
-      H_[i][i] += problem.effort * problem.effort;
+      for (std::size_t k = 0; k < count_; ++k) hessian_[i][k] = dot(weighted, problem.columns[k]);
+      hessian_[i][i] += problem.effort * problem.effort;
       const bool starts_high = problem.high[i] < 0.0;
       f_[i] = starts_high ? problem.high[i] : problem.low[i];
       bounds_[i] = starts_high ? Bound::kHigh : Bound::kLow;
@@ -55,8 +55,8 @@ class BoundedQuadratic {
       double gradient = -b_[i];
       double scale = std::abs(b_[i]);
       for (std::size_t k = 0; k < count_; ++k) {
-        gradient += H_[i][k] * f_[k];
-        scale += std::abs(H_[i][k] * f_[k]);
+        gradient += hessian_[i][k] * f_[k];
+        scale += std::abs(hessian_[i][k] * f_[k]);
       }
       const double inwards = bounds_[i] == Bound::kLow ? -gradient : gradient;
       if (inwards > kSettledGradient * scale && inwards > steepest) {
@@ -93,6 +93,7 @@ class BoundedQuadratic {
   }
 
   /// Solves for the free ones, the others being held (Cholesky).
+  // NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
   Numbers freeMinimum() const {
     std::array<std::size_t, kMostActuators> free{};
     std::size_t n = 0;
@@ -104,10 +105,10 @@ class BoundedQuadratic {
     for (std::size_t r = 0; r < n; ++r) {
       y[r] = b_[free[r]];
       for (std::size_t k = 0; k < count_; ++k) {
-        if (bounds_[k] != Bound::kFree) y[r] -= H_[free[r]][k] * f_[k];
+        if (bounds_[k] != Bound::kFree) y[r] -= hessian_[free[r]][k] * f_[k];
       }
       for (std::size_t c = 0; c <= r; ++c) {
-        double sum = H_[free[r]][free[c]];
+        double sum = hessian_[free[r]][free[c]];
         for (std::size_t k = 0; k < c; ++k) sum -= L[r][k] * L[c][k];
         L[r][c] = c == r ? std::sqrt(sum) : sum / L[c][c];
       }
@@ -125,7 +126,7 @@ class BoundedQuadratic {
 
   const AllocationProblem& problem_;
   std::size_t count_;
-  std::array<Numbers, kMostActuators> H_{};
+  std::array<Numbers, kMostActuators> hessian_{};
   Numbers b_{};
   Thrusts f_{};
   std::array<Bound, kMostActuators> bounds_{};

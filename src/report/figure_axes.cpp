@@ -83,7 +83,9 @@ std::vector<FigurePoint> FigureAxes::clipped(std::vector<FigurePoint> corners) c
 void FigureAxes::draw(Figure& figure, const std::string& x_label,
                       const std::string& y_label) const {
   const double x_step = roundStep(x_.most - x_.least, 8);
-  for (double i = std::ceil(x_.least / x_step); i * x_step <= x_.most; ++i) {
+  const double first_x = std::ceil(x_.least / x_step);
+  for (int k = 0; (first_x + k) * x_step <= x_.most; ++k) {
+    const double i = first_x + k;
     const double x = place(i * x_step, y_.least).x;
     figure.lines.push_back({{{x, left_top_.y}, {x, right_bottom_.y}}, kGrid, 0.8, 0.0});
     figure.texts.push_back({{x, right_bottom_.y + 15.0},
@@ -94,7 +96,9 @@ void FigureAxes::draw(Figure& figure, const std::string& x_label,
                             kText});
   }
   const double y_step = roundStep(y_.most - y_.least, 5);
-  for (double i = std::ceil(y_.least / y_step); i * y_step <= y_.most; ++i) {
+  const double first_y = std::ceil(y_.least / y_step);
+  for (int k = 0; (first_y + k) * y_step <= y_.most; ++k) {
+    const double i = first_y + k;
     const double y = place(x_.least, i * y_step).y;
     figure.lines.push_back({{{left_top_.x, y}, {right_bottom_.x, y}}, kGrid, 0.8, 0.0});
     figure.texts.push_back({{left_top_.x - 6.0, y + 4.0},

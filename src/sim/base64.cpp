@@ -35,6 +35,7 @@ std::string base64Text(const std::string& bytes) {
   return text;
 }
 
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 std::optional<std::string> base64Bytes(const std::string& text) {
   if (text.size() % 4 != 0) return std::nullopt;
   std::string bytes;

@@ -88,12 +88,12 @@ GreyImage pgmOf(const std::string& bytes) {
   if (begin > bytes.size() || bytes.size() - begin < width * count) {
     refuse("the PGM file ends early");
   }
-  const auto byteAt = [&](std::size_t i) {
+  const auto byte_at = [&](std::size_t i) {
     return static_cast<unsigned int>(static_cast<unsigned char>(bytes[begin + i]));
   };
   for (std::size_t i = 0; i < count; ++i) {
     image.pixels[i] = static_cast<std::uint16_t>(
-        width == 1 ? byteAt(i) : (byteAt(2 * i) << 8U) | byteAt(2 * i + 1));
+        width == 1 ? byte_at(i) : (byte_at(2 * i) << 8U) | byte_at(2 * i + 1));
   }
   checkPixels(image);
   return image;

@@ -21,6 +21,7 @@ double costOf(const AllocationProblem& problem, const Vector3& wrench, const Thr
 }
 
 /// The least cost over every way to hold some at their limits, the others free: Eigen's solver.
+// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 double leastCost(const AllocationProblem& problem, const Vector3& wrench) {
   const auto n = static_cast<Eigen::Index>(problem.count);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3 + n, n);
