@@ -195,7 +195,7 @@ std::string objectionTo(const std::string& path, const std::vector<std::string>&
   if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
     return "must not be a file that is read";
   }
-  const std::string objection = objectionTo(path);
+  std::string objection = objectionTo(path);
   if (!objection.empty()) return objection;
   return isStandardStream(path) ? "must not be where the standard output or the standard error goes"
                                 : "";
