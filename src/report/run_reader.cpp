@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "hovercraft_sim/report/run_parts.h"
+#include "hovercraft_sim/ros/recorded_messages.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
@@ -18,20 +19,15 @@ using hovercraft::Vector3;
 
 namespace {
 
-constexpr double kGreatestSeconds = 1e9;  // of a manoeuvre: beyond it a message is none
-// What a page holds of them at most; nobody flies as many.
-constexpr std::size_t kMostManoeuvres = 500;
+constexpr double kGreatestSeconds = 1e9;      // of a manoeuvre: beyond it a message is none
+constexpr std::size_t kMostManoeuvres = 500;  // that a page holds
 constexpr std::size_t kLongestText = 4096;
 
 /// The craft's name in the name of a topic of its namespace.
 std::string craftOf(const std::string& topic) {
+  const std::size_t begin = topic.rfind('/', 0) == 0 ? 1 : 0;
   const std::size_t slash = topic.rfind('/');
-  const std::string space = slash == std::string::npos ? "" : topic.substr(0, slash);
-  return space.empty() || space.front() != '/' ? space : space.substr(1);
-}
-
-bool endsIn(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  return slash == std::string::npos || slash < begin ? "" : topic.substr(begin, slash - begin);
 }
 
 /// Makes a run of topics, part by part.
@@ -106,7 +102,7 @@ const TopicSamples* RunMaker::ofType(const char* type) const {
 void RunMaker::readScenario() {
   for (const auto& [topic, samples] : recorded_.topics) {
     const auto* texts = samples.textColumn("data");
-    if (samples.type != "std_msgs/String" || !endsIn(topic, "/scenario")) continue;
+    if (samples.type != "std_msgs/String" || !endsWith(topic, "/scenario")) continue;
     if (texts == nullptr || texts->empty()) continue;
     used_.insert(topic);
     run_.scenario_text = texts->front();
@@ -278,10 +274,8 @@ void RunMaker::readManoeuvres() {
     const auto* completes = samples.column("complete");
     const auto* executes = samples.column("execute");
     const auto* ends = samples.column("end");
-    if (names == nullptr || kinds == nullptr || texts == nullptr || completes == nullptr ||
-        executes == nullptr || ends == nullptr) {
-      continue;
-    }
+    const bool has_texts = names != nullptr && kinds != nullptr && texts != nullptr;
+    if (!has_texts || completes == nullptr || executes == nullptr || ends == nullptr) continue;
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (run_.manoeuvres.size() == kMostManoeuvres) {
         run_.notes.push_back(fmt::format("Of {} only the first manoeuvres are shown.", topic));

@@ -9,6 +9,7 @@
 #include "hovercraft_sim/math/vector.h"
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/tf_frames.h"
+#include "hovercraft_sim/ros/vehicle_markers.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -33,17 +34,6 @@ std_msgs::ColorRGBA colorOf(float r, float g, float b, float a) {
   color.b = b;
   color.a = a;
   return color;
-}
-
-Marker markerOf(const std::string& frame, const std::string& kind, int id, int type) {
-  Marker marker;
-  marker.header.frame_id = frame;
-  marker.ns = kind;
-  marker.id = id;
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
-  return marker;
 }
 
 /// A length that goes with a cell, m.

@@ -8,6 +8,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/ros/vehicle_markers.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -27,13 +28,7 @@ constexpr double kWordHeight = 0.08;   // m
 
 Marker detail(const std::string& frame, const std::string& space, int id, int type,
               const std::array<float, 3>& color) {
-  Marker marker;
-  marker.header.frame_id = frame;
-  marker.ns = space;
-  marker.id = id;
-  marker.type = type;
-  marker.action = Marker::ADD;
-  marker.pose.orientation.w = 1.0;
+  Marker marker = markerOf(frame, space, id, type);
   marker.color.r = color[0];
   marker.color.g = color[1];
   marker.color.b = color[2];

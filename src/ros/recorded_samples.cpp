@@ -9,6 +9,7 @@
 #include <rosbag/view.h>
 
 #include "hovercraft_sim/ros/bag_file.h"
+#include "hovercraft_sim/ros/recorded_messages.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
 namespace hovercraft_ros {
@@ -38,10 +39,6 @@ std::uint64_t digestOf(Message message) {
   ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
   ros::serialization::serialize(stream, message);
   return digestOfBytes(bytes);
-}
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 /// The ends of all topics on which sensors publish.

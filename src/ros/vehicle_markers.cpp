@@ -151,6 +151,18 @@ Quaternion alongEngine(const Vector3& direction) {
 
 }  // namespace
 
+visualization_msgs::Marker markerOf(const std::string& frame, const std::string& space, int id,
+                                    int type) {
+  visualization_msgs::Marker marker;
+  marker.header.frame_id = frame;
+  marker.ns = space;
+  marker.id = id;
+  marker.type = type;
+  marker.action = visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  return marker;
+}
+
 // A box of edges a, b, c has I_xx = m (b² + c²)/12 and so on; solved for a²: 6 (I_yy + I_zz -
 // I_xx)/m.
 Vector3 equivalentBox(const hovercraft::MassProperties& body) {

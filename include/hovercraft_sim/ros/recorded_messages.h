@@ -12,6 +12,11 @@
 
 namespace hovercraft_ros {
 
+/// Whether a name of a topic or frame ends so.
+inline bool endsWith(const std::string& name, const std::string& end) {
+  return name.size() >= end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0;
+}
+
 /// Messages of a recording, checked as they are read: a bag is input of a user, whatever wrote it.
 /// Each throws std::invalid_argument that names file, topic, time and rule.
 

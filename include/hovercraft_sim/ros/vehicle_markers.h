@@ -16,6 +16,10 @@ namespace hovercraft_ros {
 /// What RViz shows of one craft, made from its scenario. Markers in base_link are locked to that
 /// frame: tf moves them.
 
+/// A marker that is to be filled: without scale, colour and lifetime, at the origin of its frame.
+visualization_msgs::Marker markerOf(const std::string& frame, const std::string& space, int id,
+                                    int type);
+
 /// The box of uniform density that has the mass and the inertia of a craft described by numbers;
 /// edges in m.
 HOVERCRAFT_PUBLIC hovercraft::Vector3 equivalentBox(const hovercraft::MassProperties& body);
