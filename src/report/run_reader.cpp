@@ -19,9 +19,8 @@ using hovercraft::Vector3;
 
 namespace {
 
-constexpr double kGreatestSeconds = 1e9;      // of a manoeuvre: beyond it a message is none
-constexpr std::size_t kMostManoeuvres = 500;  // that a page holds
-constexpr std::size_t kLongestText = 4096;
+constexpr double kGreatestSeconds = 1e9;  // of a manoeuvre: beyond it a message is none
+constexpr std::size_t kMostManoeuvres = 500, kLongestText = 4096;  // that a page holds, bytes
 
 /// The craft's name in the name of a topic of its namespace.
 std::string craftOf(const std::string& topic) {
