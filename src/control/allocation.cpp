@@ -92,21 +92,32 @@ class BoundedQuadratic {
     return false;
   }
 
-  /// Solves for the free ones, the others being held (Cholesky).
-  // NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
-  Numbers freeMinimum() const {
-    std::array<std::size_t, kMostActuators> free{};
+  /// The right-hand side of one, what is held taken off.
+  double loadOf(std::size_t row) const {
+    double load = b_[row];
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (bounds_[k] != Bound::kFree) load -= hessian_[row][k] * f_[k];
+    }
+    return load;
+  }
+
+  /// @param free their indices. @returns how many they are.
+  std::size_t findFree(std::array<std::size_t, kMostActuators>& free) const {
     std::size_t n = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       if (bounds_[i] == Bound::kFree) free[n++] = i;
     }
+    return n;
+  }
+
+  /// Solves for the free ones, the others being held (Cholesky).
+  Numbers freeMinimum() const {
+    std::array<std::size_t, kMostActuators> free{};
+    const std::size_t n = findFree(free);
     std::array<Numbers, kMostActuators> L{};
     Numbers y{};
     for (std::size_t r = 0; r < n; ++r) {
-      y[r] = b_[free[r]];
-      for (std::size_t k = 0; k < count_; ++k) {
-        if (bounds_[k] != Bound::kFree) y[r] -= hessian_[free[r]][k] * f_[k];
-      }
+      y[r] = loadOf(free[r]);
       for (std::size_t c = 0; c <= r; ++c) {
         double sum = hessian_[free[r]][free[c]];
         for (std::size_t k = 0; k < c; ++k) sum -= L[r][k] * L[c][k];

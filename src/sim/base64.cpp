@@ -19,6 +19,26 @@ std::uint32_t groupAt(const std::string& bytes, std::size_t first) {
   return group;
 }
 
+/// How many '=' the last four characters end in: two at most.
+std::size_t paddingOf(const std::string& text) {
+  const std::size_t size = text.size();
+  if (size < 4 || text[size - 1] != '=') return 0;
+  return text[size - 2] == '=' ? 2 : 1;
+}
+
+/// The 24 bits of four characters, of which `padding` stand for 0; nothing if another one has no
+/// place in the alphabet.
+std::optional<std::uint32_t> bitsOf(const std::string& text, std::size_t first,
+                                    std::size_t padding) {
+  std::uint32_t group = 0;
+  for (std::size_t i = first; i < first + 4 - padding; ++i) {
+    const std::size_t digit = kAlphabet.find(text[i]);
+    if (digit == std::string_view::npos) return std::nullopt;
+    group = (group << 6U) | static_cast<std::uint32_t>(digit);
+  }
+  return group << (6U * static_cast<unsigned int>(padding));
+}
+
 }  // namespace
 
 std::string base64Text(const std::string& bytes) {
@@ -35,23 +55,16 @@ std::string base64Text(const std::string& bytes) {
   return text;
 }
 
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
 std::optional<std::string> base64Bytes(const std::string& text) {
   if (text.size() % 4 != 0) return std::nullopt;
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3);
   for (std::size_t first = 0; first < text.size(); first += 4) {
-    std::uint32_t group = 0;
-    std::size_t padding = 0;
-    for (std::size_t i = first; i < first + 4; ++i) {
-      const std::size_t digit = kAlphabet.find(text[i]);
-      const bool is_padding = text[i] == '=' && first + 4 == text.size() && i >= first + 2;
-      if (is_padding ? false : digit == std::string_view::npos || padding > 0) return std::nullopt;
-      if (is_padding) ++padding;
-      group = (group << 6U) | (is_padding ? 0U : static_cast<std::uint32_t>(digit));
-    }
+    const std::size_t padding = first + 4 == text.size() ? paddingOf(text) : 0;
+    const std::optional<std::uint32_t> group = bitsOf(text, first, padding);
+    if (!group) return std::nullopt;
     for (std::size_t i = 0; i < 3 - padding; ++i) {
-      bytes += static_cast<char>((group >> (16U - 8U * static_cast<unsigned int>(i))) & 255U);
+      bytes += static_cast<char>((*group >> (16U - 8U * static_cast<unsigned int>(i))) & 255U);
     }
   }
   return bytes;

@@ -20,45 +20,62 @@ double costOf(const AllocationProblem& problem, const Vector3& wrench, const Thr
   return cost;
 }
 
-/// The least cost over every way to hold some at their limits, the others free: Eigen's solver.
-// NOLINTNEXTLINE(readability-function-cognitive-complexity): to be split.
-double leastCost(const AllocationProblem& problem, const Vector3& wrench) {
+/// |A f - b|² is the cost of f.
+struct LeastSquares {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd b;
+};
+
+LeastSquares systemOf(const AllocationProblem& problem, const Vector3& wrench) {
   const auto n = static_cast<Eigen::Index>(problem.count);
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3 + n, n);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(3 + n);
-  for (int r = 0; r < 3; ++r) {
-    b[r] = problem.weights[r] * wrench[r];
-    for (Eigen::Index i = 0; i < n; ++i) {
-      A(r, i) = problem.weights[r] * problem.columns[static_cast<std::size_t>(i)][r];
-    }
+  LeastSquares system = {Eigen::MatrixXd::Zero(3 + n, n), Eigen::VectorXd::Zero(3 + n)};
+  system.b.head<3>() = problem.weights.cwiseProduct(wrench);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Vector3& column = problem.columns[static_cast<std::size_t>(i)];
+    system.A.col(i).head<3>() = problem.weights.cwiseProduct(column);
+    system.A(3 + i, i) = problem.effort;
   }
-  for (Eigen::Index i = 0; i < n; ++i) A(3 + i, i) = problem.effort;
+  return system;
+}
+
+/// The least of those in which the free ones may be anything: Eigen's solver.
+/// @param f what the others are held at.
+void solveFree(const LeastSquares& system, const std::vector<Eigen::Index>& free,
+               Eigen::VectorXd& f) {
+  if (free.empty()) return;
+  Eigen::MatrixXd part(system.A.rows(), static_cast<Eigen::Index>(free.size()));
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    part.col(static_cast<Eigen::Index>(k)) = system.A.col(free[k]);
+  }
+  const Eigen::VectorXd x = part.colPivHouseholderQr().solve(system.b - system.A * f);
+  for (std::size_t k = 0; k < free.size(); ++k) f[free[k]] = x[static_cast<Eigen::Index>(k)];
+}
+
+bool isWithin(const AllocationProblem& problem, const Eigen::VectorXd& f) {
+  for (std::size_t k = 0; k < problem.count; ++k) {
+    const double level = f[static_cast<Eigen::Index>(k)];
+    if (level < problem.low[k] - 1e-12 || level > problem.high[k] + 1e-12) return false;
+  }
+  return true;
+}
+
+/// The least cost over every way to hold some at their limits, the others free.
+double leastCost(const AllocationProblem& problem, const Vector3& wrench) {
+  const LeastSquares system = systemOf(problem, wrench);
   double least = INFINITY;
-  const auto sets = static_cast<int>(std::lround(std::pow(3.0, static_cast<double>(n))));
-  for (int set = 0; set < sets; ++set) {
-    Eigen::VectorXd f = Eigen::VectorXd::Zero(n);
+  const auto sets = std::lround(std::pow(3.0, static_cast<double>(problem.count)));
+  for (long set = 0; set < sets; ++set) {
+    Eigen::VectorXd f = Eigen::VectorXd::Zero(system.A.cols());
     std::vector<Eigen::Index> free;
-    for (int i = 0, rest = set; i < n; ++i, rest /= 3) {
+    long rest = set;
+    for (Eigen::Index i = 0; i < f.size(); ++i, rest /= 3) {
       const auto k = static_cast<std::size_t>(i);
       if (rest % 3 == 0) free.push_back(i);
       if (rest % 3 == 1) f[i] = problem.low[k];
       if (rest % 3 == 2) f[i] = problem.high[k];
     }
-    if (!free.empty()) {
-      Eigen::MatrixXd part(3 + n, static_cast<Eigen::Index>(free.size()));
-      for (std::size_t k = 0; k < free.size(); ++k) {
-        part.col(static_cast<Eigen::Index>(k)) = A.col(free[k]);
-      }
-      const Eigen::VectorXd x = part.colPivHouseholderQr().solve(b - A * f);
-      for (std::size_t k = 0; k < free.size(); ++k) f[free[k]] = x[static_cast<Eigen::Index>(k)];
-    }
-    bool is_possible = true;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      is_possible =
-          is_possible && f[i] >= problem.low[k] - 1e-12 && f[i] <= problem.high[k] + 1e-12;
-    }
-    if (is_possible) least = std::min(least, (A * f - b).squaredNorm());
+    solveFree(system, free, f);
+    if (isWithin(problem, f)) least = std::min(least, (system.A * f - system.b).squaredNorm());
   }
   return least;
 }
