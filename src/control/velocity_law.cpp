@@ -199,12 +199,13 @@ double VelocityLaw::balance(int axis, double sign, const Vector3& held) const {
 
 double VelocityLaw::topSpeed(double sign) const {
   const FloatingPointEnvironment environment;
-  return balance(0, sign, {0.0, controls_sway_ ? 1e3 : 0.0, 1e3});
+  return FloatingPointEnvironment::computed(
+      balance(0, sign, {0.0, controls_sway_ ? 1e3 : 0.0, 1e3}));
 }
 
 double VelocityLaw::topYawRate(double sign) const {
   const FloatingPointEnvironment environment;
-  return balance(2, sign, Vector3::Zero());
+  return FloatingPointEnvironment::computed(balance(2, sign, Vector3::Zero()));
 }
 
 }  // namespace hovercraft

@@ -288,7 +288,7 @@ double longestStableStep(Integrator integrator, const HoverMode& mode) {
   if (integrator == Integrator::kSemiImplicitEuler) {
     // v' = v - h (rate v + square x), x' = x + h v': decays while
     // square h² + 2 rate h < 4.
-    return 4.0 / (rate + std::sqrt(rate * rate + 4.0 * square));
+    return FloatingPointEnvironment::computed(4.0 / (rate + std::sqrt(rate * rate + 4.0 * square)));
   }
   const double inner = 0.25 * rate * rate - square;
   const double size = std::sqrt(std::abs(inner));

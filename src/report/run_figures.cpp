@@ -33,7 +33,6 @@ constexpr FigurePoint kLeftTop = {64.0, 44.0};
 constexpr double kRight = 18.0;  // room beside and below a plot
 constexpr double kBottom = 46.0;
 constexpr double kTick = 9.0;  // length of a heading
-constexpr double kNanosecond = 1e-9;
 
 FigureColor colorAt(std::size_t i) {
   return kColors[i % kColors.size()];

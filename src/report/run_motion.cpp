@@ -13,8 +13,6 @@ using hovercraft::Vector3;
 
 namespace {
 
-constexpr double kNanosecond = 1e-9;  // s
-
 /// Three or four columns of a topic: those of the leaves `PATH.NAME`.
 template <std::size_t N>
 std::array<const std::vector<double>*, N> columnsOf(const TopicSamples& samples,

@@ -19,15 +19,7 @@ using hovercraft::Vector3;
 
 namespace {
 
-constexpr double kGreatestSeconds = 1e9;  // of a manoeuvre: beyond it a message is none
-constexpr std::size_t kMostManoeuvres = 500, kLongestText = 4096;  // that a page holds, bytes
-
-/// The craft's name in the name of a topic of its namespace.
-std::string craftOf(const std::string& topic) {
-  const std::size_t begin = topic.rfind('/', 0) == 0 ? 1 : 0;
-  const std::size_t slash = topic.rfind('/');
-  return slash == std::string::npos || slash < begin ? "" : topic.substr(begin, slash - begin);
-}
+constexpr std::size_t kMostManoeuvres = 500;  // that a page holds
 
 /// Makes a run of topics, part by part.
 class RunMaker {
@@ -267,30 +259,11 @@ void RunMaker::readManoeuvres() {
   for (const auto& [topic, samples] : recorded_.topics) {
     if (samples.type != "hovercraft_sim/Manoeuvre") continue;
     used_.insert(topic);
-    const auto* names = samples.textColumn("name");
-    const auto* kinds = samples.textColumn("kind");
-    const auto* texts = samples.textColumn("text");
-    const auto* completes = samples.column("complete");
-    const auto* executes = samples.column("execute");
-    const auto* ends = samples.column("end");
-    const bool has_texts = names != nullptr && kinds != nullptr && texts != nullptr;
-    if (!has_texts || completes == nullptr || executes == nullptr || ends == nullptr) continue;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (RunManoeuvre& manoeuvre : manoeuvresOf(topic, samples, run_.zero_ns)) {
       if (run_.manoeuvres.size() == kMostManoeuvres) {
         run_.notes.push_back(fmt::format("Of {} only the first manoeuvres are shown.", topic));
         break;
       }
-      const double seconds = (*ends)[i] - (*executes)[i];
-      if (!(seconds >= 0.0 && seconds <= kGreatestSeconds)) continue;
-      RunManoeuvre manoeuvre;
-      manoeuvre.craft = craftOf(topic);
-      manoeuvre.name = (*names)[i];
-      manoeuvre.kind = (*kinds)[i];
-      manoeuvre.is_complete = (*completes)[i] != 0.0;
-      manoeuvre.end_ns = samples.stamps_ns[i] - run_.zero_ns;
-      // Simulated times count from tick 0 of an episode, stamps through all of them.
-      manoeuvre.execute_ns = manoeuvre.end_ns - static_cast<std::int64_t>(1e9 * seconds);
-      manoeuvre.text = (*texts)[i].substr(0, kLongestText);
       run_.manoeuvres.push_back(std::move(manoeuvre));
     }
   }

@@ -89,7 +89,8 @@ Vector3 NoiseProcess::measure(std::int64_t seed, Tick tick, const Vector3& truth
 
 double NoiseProcess::variance() const {
   const FloatingPointEnvironment environment;
-  return (white_ * white_ + turn_on_ * turn_on_) + stationary_ * stationary_;
+  return FloatingPointEnvironment::computed((white_ * white_ + turn_on_ * turn_on_) +
+                                            stationary_ * stationary_);
 }
 
 }  // namespace hovercraft

@@ -15,6 +15,8 @@
 /// bag has states, else from its first pose.
 namespace hovercraft_ros {
 
+constexpr double kNanosecond = 1e-9;  // s
+
 /// Nothing is drawn beyond: a value of a curve, and a position in m.
 constexpr double kGreatestDrawn = 1e300;
 constexpr double kFarthestDrawn = 1e9;

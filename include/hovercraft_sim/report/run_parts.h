@@ -42,6 +42,11 @@ std::vector<RunPanel> mainPanels(const RunBody& body, const BodyTopics& topics,
 /// Panels of any other topic with numbers. What does not change is no curve.
 std::vector<RunPanel> panelsOfTopic(const TopicSamples& samples, std::int64_t zero_ns);
 
+/// The manoeuvres that a topic of Manoeuvre tells of; none where the message lacks a field. What
+/// has no sensible duration is left out.
+std::vector<RunManoeuvre> manoeuvresOf(const std::string& topic, const TopicSamples& samples,
+                                       std::int64_t zero_ns);
+
 /// Solids of a craft or a loose body, a craft's skirt among them; the equivalent box of a craft
 /// that is described by numbers.
 std::vector<RunShape> shapesOf(const hovercraft::VehicleScenario& vehicle, bool is_craft);
