@@ -75,7 +75,7 @@ def copy_checkout(target):
             (target / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(file, target / file)
     else:
-        shutil.copytree('.', target, symlinks=True, ignore=shutil.ignore_patterns('.git', 'build*', 'out', '__pycache__'))
+        shutil.copytree('.', target, symlinks=True, ignore=shutil.ignore_patterns('.git', 'build', 'build_*', 'out', '__pycache__'))
 
 
 class Failure(Exception):

@@ -14,6 +14,7 @@ A command without a rule is run as it stands: it must end by itself, with exit s
 
 import collections
 import re
+import shutil
 
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
@@ -38,6 +39,8 @@ MOVED = 'rostopic echo -n 1 --filter "m.pose.position.x > 0.2" /hovercraft/pose'
 ROSRUN = ('for name in hold_heading.py plot_run.py simulate; do '
           'rosrun --prefix echo hovercraft_sim $name | grep -x "/.*/$name" || exit 1; done')
 SCRIPTS_TEST = 'scripts/test runs it'
+# scripts/test installs no RViz.
+NO_RVIZ = None if all(map(shutil.which, ('rviz', 'Xvfb', 'import'))) else 'it needs rviz, xvfb and imagemagick, which are not here'
 NAMED = 'a name in a sentence: nothing to run'
 RECORDS = 'rosnode info /record | grep /hovercraft/state'
 HAS_THRUSTS = 'rosbag info flight.bag | grep /hovercraft/thrust/rear'
@@ -94,7 +97,8 @@ RULES = (
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
     Rule(r'scripts/check_(example|page) build_release', skip=SCRIPTS_TEST),
-    # doc/rviz.md
+    # doc/craft.md, doc/rviz.md
+    Rule(r'scripts/screenshot_rviz( .*)?', skip=NO_RVIZ),
     Rule(r'roslaunch hovercraft_sim sim\.launch rviz:=true', skip='it opens a window'),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
