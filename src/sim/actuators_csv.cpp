@@ -10,7 +10,7 @@ namespace hovercraft {
 
 ActuatorsCsvWriter::ActuatorsCsvWriter(const std::string& path, const Scenario& scenario,
                                        std::unique_ptr<StateSink> next)
-    : file_(path), next_(std::move(next)) {
+    : RelaySink(std::move(next)), file_(path) {
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     const VehicleScenario& craft = scenario.vehicles[vehicle];
     for (std::size_t id = 0; id < kFirstActuator + craft.actuators.size(); ++id) {
@@ -34,12 +34,12 @@ void ActuatorsCsvWriter::state(const Simulation& simulation) {
                                         report.saturated ? 1 : 0, report.timed_out ? 1 : 0);
     file_.write(row.data(), row.size());
   }
-  next_->state(simulation);
+  RelaySink::state(simulation);
 }
 
 void ActuatorsCsvWriter::close() {
   file_.close();
-  next_->close();
+  RelaySink::close();
 }
 
 }  // namespace hovercraft

@@ -7,7 +7,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/output_file.h"
-#include "hovercraft_sim/sim/run.h"
+#include "hovercraft_sim/sim/relay_sink.h"
 
 namespace hovercraft {
 
@@ -16,19 +16,13 @@ namespace hovercraft {
 /// name, as received, N or what the kind of the actuator says, 0 to 1, and three times 0 or 1. A
 /// row for each actuator at each tick of output, by their ids. Times are exact; numbers as
 /// appendNumber().
-class HOVERCRAFT_PUBLIC ActuatorsCsvWriter : public StateSink {
+class HOVERCRAFT_PUBLIC ActuatorsCsvWriter : public RelaySink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
   ActuatorsCsvWriter(const std::string& path, const Scenario& scenario,
                      std::unique_ptr<StateSink> next);
 
   void state(const Simulation& simulation) override;
-  void applied(const Command& command) override { next_->applied(command); }
-  void contact(const ContactEvent& event) override { next_->contact(event); }
-  void sample(const SensorSample& sample) override { next_->sample(sample); }
-  void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
-    next_->flown(manoeuvre, vehicle, tick);
-  }
   void close() override;
 
  private:
@@ -39,7 +33,6 @@ class HOVERCRAFT_PUBLIC ActuatorsCsvWriter : public StateSink {
   };
 
   OutputFile file_;
-  std::unique_ptr<StateSink> next_;
   std::vector<Column> actuators_;  // that the craft have
 };
 
