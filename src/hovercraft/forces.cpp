@@ -14,22 +14,20 @@ double thrustOf(const FanForce& fan, const ForceInputs& inputs) {
 
 Wrench wrenchInBody(const std::vector<Force>& forces, const ForceInputs& inputs) {
   const FloatingPointEnvironment environment;
-  Vector3 sum_of_forces = Vector3::Zero();
-  Vector3 sum_of_torques = Vector3::Zero();
-  for (const Force& each : forces) {
-    // Fans are most, and without a call by their kind they cost half.
-    if (const auto* const fan = std::get_if<FanForce>(&each)) {
-      const Vector3 force = thrustOf(*fan, inputs) * fan->place.direction;
-      sum_of_forces += force;
-      sum_of_torques += cross(fan->place.p_BE, force);
-      continue;
+  Wrench sum;
+  for (const Force& force : forces) {
+    // Kind by kind, as a call by std::visit takes three times as long as a fan.
+    if (const auto* const fan = std::get_if<FanForce>(&force)) {
+      sum = sum + fan->place.wrench(thrustOf(*fan, inputs) * fan->place.direction);
+    } else if (const auto* const propeller = std::get_if<PropellerForce>(&force)) {
+      sum = sum + propeller->wrench(inputs);
+    } else if (const auto* const rudder = std::get_if<RudderForce>(&force)) {
+      sum = sum + rudder->wrench(inputs);
+    } else if (const auto* const polar = std::get_if<PolarForce>(&force)) {
+      sum = sum + polar->wrench(inputs);
     }
-    const Wrench wrench =
-        std::visit([&inputs](const auto& kind) { return kind.wrench(inputs); }, each);
-    sum_of_forces += wrench.force;
-    sum_of_torques += wrench.torque;
   }
-  return {sum_of_forces, sum_of_torques};
+  return sum;
 }
 
 }  // namespace hovercraft
