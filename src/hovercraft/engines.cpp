@@ -22,6 +22,7 @@ EngineDynamics::EngineDynamics(const ActuatorArray<EngineParameters>& parameters
     Rule& rule = rules_[i];
     rule.min_thrust = engine.min_thrust;
     rule.max_thrust = engine.max_thrust;
+    if (!engine.command.isPlain()) rule.map = std::make_shared<const CommandMap>(engine.command);
     if (engine.timeout_ns > 0) {
       rule.timeout_ticks = engine.timeout_ns / step_ns + (engine.timeout_ns % step_ns > 0 ? 1 : 0);
     }

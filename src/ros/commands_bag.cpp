@@ -3,25 +3,28 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
 
+#include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/AppliedCommand.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <std_msgs/Float32.h>
 #include <std_msgs/Float64.h>
 
 #include "hovercraft_sim/ros/bag_file.h"
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/recorded_messages.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/actuator_topics.h"
 
 namespace hovercraft_ros {
 
 using hovercraft::Command;
-using hovercraft::kEngineNames;
 using hovercraft::Tick;
 
 namespace {
@@ -43,18 +46,32 @@ namespace streams_of_bag {
 struct VehicleTopics {
   std::size_t vehicle;
   hovercraft::VehicleScenario craft;
-  std::string applied;               // AppliedCommand
-  std::string thrust;                // ThrustCommand
-  std::vector<std::string> engines;  // Float64 of rear, left, right
+  std::string applied;                        // AppliedCommand
+  std::string thrust;                         // ThrustCommand
+  std::string actuators;                      // ActuatorCommand
+  std::map<std::string, std::size_t> levels;  // Float64 or Float32: ids of engines and actuators
+
+  /// Those of commands as they were given.
+  std::vector<std::string> given() const {
+    std::vector<std::string> topics = {thrust};
+    if (!craft.actuators.empty()) topics.push_back(actuators);
+    for (const auto& [topic, id] : levels) topics.push_back(topic);
+    return topics;
+  }
 };
 
 std::vector<VehicleTopics> topicsOf(const hovercraft::Scenario& scenario) {
   std::vector<VehicleTopics> all;
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     const std::string space = "/" + scenario.vehicles[vehicle].name + "/";
+    const hovercraft::VehicleScenario& craft = scenario.vehicles[vehicle];
     VehicleTopics topics{
-        vehicle, scenario.vehicles[vehicle], space + kCommandsTopic, space + kThrustTopic, {}};
-    for (const char* engine : kEngineNames) topics.engines.push_back(topics.thrust + "/" + engine);
+        vehicle, craft, space + kCommandsTopic, space + kThrustTopic, space + kActuatorCommandTopic,
+        {}};
+    for (std::size_t id = 0; id < hovercraft::kFirstActuator + craft.actuators.size(); ++id) {
+      if (id < hovercraft::kFirstActuator && !craft.has_engine[id]) continue;
+      topics.levels[hovercraft::absoluteTopic(craft, hovercraft::commandTopicOf(craft, id))] = id;
+    }
     all.push_back(topics);
   }
   return all;
@@ -97,19 +114,30 @@ class VehicleStream {
     // Not as a ros::Duration, which has 32 bits for the seconds, one of them for the sign.
     const auto time_ns = static_cast<std::int64_t>(message.getTime().toNSec() - begin_.toNSec());
     const Tick tick = hovercraft::firstTickAt(time_ns, step_ns_);
-    std::optional<Command> command;
-    if (message.getTopic() == topics_.thrust) {
-      command = toCommand(*messageAs<hovercraft_sim::ThrustCommand>(path_, message),
-                          topics_.vehicle, tick);
-    } else {
-      const auto engine = static_cast<int>(
-          std::find(topics_.engines.begin(), topics_.engines.end(), message.getTopic()) -
-          topics_.engines.begin());
-      command = toCommand(messageAs<std_msgs::Float64>(path_, message)->data,
-                          static_cast<hovercraft::EngineId>(engine), topics_.vehicle, tick);
+    if (message.getTopic() == topics_.actuators) {
+      const auto values = messageAs<hovercraft_sim::ActuatorCommand>(path_, message);
+      const auto command = toCommand(*values, topics_.craft, topics_.vehicle, tick);
+      if (!command) {
+        failAt(path_, message, "names and values must be of actuators, each once and finite");
+      }
+      return *command;
     }
+    const std::optional<Command> command =
+        message.getTopic() == topics_.thrust
+            ? toCommand(*messageAs<hovercraft_sim::ThrustCommand>(path_, message), topics_.vehicle,
+                        tick)
+            : levelOf(message, tick);
     if (!command) failAt(path_, message, "a thrust must be finite");
     return *command;
+  }
+
+  std::optional<Command> levelOf(const rosbag::MessageInstance& message, Tick tick) {
+    const std::size_t id = topics_.levels.at(message.getTopic());
+    const double value =
+        hovercraft::isFloat32(topics_.craft, id)
+            ? static_cast<double>(messageAs<std_msgs::Float32>(path_, message)->data)
+            : messageAs<std_msgs::Float64>(path_, message)->data;
+    return toCommand(value, id, topics_.vehicle, tick);
   }
 
   Command appliedOf(const rosbag::MessageInstance& instance) {
@@ -151,10 +179,7 @@ class BagCommandSource::Streams {
     });
     for (const VehicleTopics& topics : all) {
       std::vector<std::string> wanted = {topics.applied};
-      if (!has_applied) {
-        wanted = topics.engines;
-        wanted.push_back(topics.thrust);
-      }
+      if (!has_applied) wanted = topics.given();
       std::vector<std::string> chosen;
       std::copy_if(wanted.begin(), wanted.end(), std::back_inserter(chosen),
                    [&](const std::string& topic) { return present.count(topic) > 0; });

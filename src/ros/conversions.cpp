@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -16,21 +17,6 @@ void addValue(hovercraft::Command& command, std::size_t id, double value) {
   if (command.thrusts.size() <= id) command.thrusts.resize(id + 1);
   command.thrusts[id] = value;
   command.engines = static_cast<hovercraft::EngineMask>(command.engines | hovercraft::maskOf(id));
-}
-
-/// Of an engine that the craft has, or of another actuator.
-std::optional<std::size_t> idOf(const hovercraft::VehicleScenario& craft, const std::string& name) {
-  const auto& engines = hovercraft::kEngineNames;
-  const auto engine = std::find(engines.begin(), engines.end(), name);
-  if (engine != engines.end()) {
-    const auto id = static_cast<std::size_t>(engine - engines.begin());
-    return craft.has_engine[id] ? std::optional(id) : std::nullopt;
-  }
-  const auto& others = craft.actuators;
-  const auto other = std::find_if(others.begin(), others.end(),
-                                  [&](const auto& actuator) { return actuator.name == name; });
-  if (other == others.end()) return std::nullopt;
-  return hovercraft::kFirstActuator + static_cast<std::size_t>(other - others.begin());
 }
 
 }  // namespace
@@ -188,7 +174,7 @@ std::optional<Command> toCommand(const hovercraft_sim::ActuatorCommand& message,
   if (message.names.empty() || message.names.size() != message.values.size()) return std::nullopt;
   Command command{tick, vehicle, 0, {}};
   for (std::size_t i = 0; i < message.names.size(); ++i) {
-    const auto id = idOf(craft, message.names[i]);
+    const auto id = hovercraft::actuatorIdOf(craft, message.names[i]);
     if (!id || !std::isfinite(message.values[i])) return std::nullopt;
     if ((command.engines & hovercraft::maskOf(*id)) != 0) return std::nullopt;
     addValue(command, *id, message.values[i]);

@@ -68,6 +68,10 @@ double fullForce(const hovercraft::VehicleScenario& craft) {
   for (const hovercraft::EngineParameters& engine : craft.engines) {
     full = std::max({full, engine.max_thrust, -engine.min_thrust});
   }
+  for (const hovercraft::ActuatorScenario& actuator : craft.actuators) {
+    if (actuator.kind != hovercraft::ActuatorKind::kFan) continue;
+    full = std::max({full, actuator.motion.max_thrust, -actuator.motion.min_thrust});
+  }
   return full > 0.0 ? full : craft.mass_properties.mass;
 }
 

@@ -9,6 +9,7 @@
 
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/ros/actuator_markers.h"
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/cushion_markers.h"
 #include "hovercraft_sim/ros/robot_description.h"
@@ -110,6 +111,12 @@ void MarkersNode::watch(const hovercraft::VehicleScenario& description) {
       own.subscribe<geometry_msgs::PoseStamped>(kPoseTopic, kDisplayQueue, on_pose),
       own.subscribe<hovercraft_sim::State>(kStateTopic, kDisplayQueue, on_state),
       own.subscribe<hovercraft_sim::EngineStatus>(kEnginesTopic, kDisplayQueue, on_engines)};
+  if (!description.actuators.empty()) {
+    const boost::function<void(const hovercraft_sim::ActuatorStatusArray&)> on_actuators =
+        [craft](const hovercraft_sim::ActuatorStatusArray& status) { craft->actuators = status; };
+    craft->subscribers.push_back(own.subscribe<hovercraft_sim::ActuatorStatusArray>(
+        kActuatorsTopic, kDisplayQueue, on_actuators));
+  }
   if (!description.cushion) return;
   const boost::function<void(const hovercraft_sim::Cushion&)> on_cushion =
       [craft](const hovercraft_sim::Cushion& cushion) { craft->cushion = cushion; };
@@ -215,6 +222,7 @@ void MarkersNode::publish() {
     std::vector<visualization_msgs::Marker> fixed = craftMarkers(craft->description, i);
     if (craft_.size() > 1) fixed.push_back(nameMarker(craft->description));
     append(fixed, thrustMarkers(craft->description, craft->engines));
+    append(fixed, actuatorMarkers(craft->description, craft->actuators));
     append(fixed, cushionMarkers(craft->description, craft->cushion));
     addPrefix(prefix, fixed);
     append(array.markers, fixed);

@@ -14,6 +14,7 @@
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/actuator_topics.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
@@ -148,10 +149,15 @@ void readMap(const hovercraft::ConfigReader& reader, NodeConfig& config) {
 }
 
 /// A topic below the namespace of each craft.
-std::string readTruthOdom(const hovercraft::ConfigReader& reader, const std::string& fallback) {
-  if (!reader.has("truth_odom")) return fallback;
+std::string readTruthOdom(const hovercraft::ConfigReader& reader, const NodeConfig& config) {
+  if (!reader.has("truth_odom")) return config.truth_odom;
   const std::string topic = reader.text("truth_odom");
-  if (!isTopicForTruth(topic)) reader.fail("truth_odom", kTruthOdomRuleText);
+  const auto& vehicles = config.scenario.vehicles;
+  const bool is_free =
+      std::all_of(vehicles.begin(), vehicles.end(), [&](const hovercraft::VehicleScenario& craft) {
+        return !hovercraft::isCommandTopic(config.scenario, absoluteTopic(craft, topic));
+      });
+  if (!isTopicForTruth(topic) || !is_free) reader.fail("truth_odom", kTruthOdomRuleText);
   return topic;
 }
 
@@ -187,7 +193,7 @@ NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::
   config.scenario = readScenario(reader, parameters);
   config.publish_every = publishPeriod(reader, config.scenario.stepSize());
   config.frames = readFrames(reader);
-  config.truth_odom = readTruthOdom(reader, config.truth_odom);
+  config.truth_odom = readTruthOdom(reader, config);
   readMap(reader, config);
   config.real_time_factor = reader.numberOr(config.real_time_factor, "real_time_factor",
                                             {isRealTimeFactor, kRealTimeFactorRuleText});

@@ -9,6 +9,7 @@
 #include <hovercraft_sim/ApplyWrench.h>
 #include <hovercraft_sim/Reset.h>
 #include <hovercraft_sim/ScheduleCommands.h>
+#include <hovercraft_sim/SetActuator.h>
 #include <hovercraft_sim/SetState.h>
 #include <hovercraft_sim/SetWind.h>
 #include <hovercraft_sim/Snapshot.h>
@@ -101,6 +102,11 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
   servers_.push_back(serve<hovercraft_sim::SetWind>(
       node_, own, "set_wind", [this](const auto& request, auto& response) {
         node_.apply(setWindEvent(request));
+        response.tick = static_cast<std::uint64_t>(node_.liveRun().simulation().tick());
+      }));
+  servers_.push_back(serve<hovercraft_sim::SetActuator>(
+      node_, own, "set_actuator", [this](const auto& request, auto& response) {
+        node_.apply(setActuatorEvent(node_.config().scenario, request));
         response.tick = static_cast<std::uint64_t>(node_.liveRun().simulation().tick());
       }));
   servers_.push_back(serve<hovercraft_sim::ScheduleCommands>(

@@ -105,6 +105,9 @@ boost::shared_ptr<const RunEvent> readRunEvent(const std::string& path,
     case kSetWind:
       place.require(isWind(*message), kWindRuleText);
       break;
+    case kSetActuator:
+      place.require(isFault(*message), kFaultRuleText);
+      break;
     default:
       failAt(path, instance, fmt::format("kind = {}: is no event that is known", message->kind));
   }

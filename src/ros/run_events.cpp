@@ -11,6 +11,7 @@
 #include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/command_source.h"
 #include "hovercraft_sim/sim/snapshot.h"
+#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -40,6 +41,20 @@ Vector3 windOf(const RunEvent& event) {
   return {event.values[0], event.values[1], event.values[2]};
 }
 
+/// The id of the actuator of a fault. @throws std::invalid_argument with the names there are.
+std::size_t actuatorIndex(const hovercraft::VehicleScenario& craft, const std::string& name) {
+  const auto id = hovercraft::actuatorIdOf(craft, name);
+  if (id) return *id;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < hovercraft::kFirstActuator + craft.actuators.size(); ++i) {
+    if (i >= hovercraft::kFirstActuator || craft.has_engine[i]) {
+      names.push_back(hovercraft::actuatorName(craft, i));
+    }
+  }
+  throw std::invalid_argument(
+      fmt::format("name = {}: must be one of: {}", name, fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string& name) {
@@ -56,6 +71,12 @@ bool isWind(const RunEvent& event) {
   const auto& wind = event.values;
   return event.name == "wind" && wind.size() == 3 &&
          hovercraft::canBeWind(Vector3(wind[0], wind[1], wind[2]));
+}
+
+bool isFault(const RunEvent& event) {
+  const auto& fault = event.values;
+  return !event.name.empty() && fault.size() == 2 && fault[0] >= 0.0 && fault[0] <= 1.0 &&
+         (fault[1] == 0.0 || fault[1] == 1.0);
 }
 
 RunEvent resetEvent(std::int64_t seed) {
@@ -133,7 +154,29 @@ RunEvent setWindEvent(const hovercraft_sim::SetWind::Request& request) {
   return event;
 }
 
+RunEvent setActuatorEvent(const hovercraft::Scenario& scenario,
+                          const hovercraft_sim::SetActuator::Request& request) {
+  const std::size_t vehicle = vehicleIndex(scenario, request.vehicle);
+  actuatorIndex(scenario.vehicles[vehicle], request.name);
+  require(request.efficiency >= 0.0 && request.efficiency <= 1.0,
+          fmt::format("efficiency = {}: must be 0 to 1", request.efficiency));
+  RunEvent event;
+  event.kind = kSetActuator;
+  event.vehicle = request.vehicle;
+  event.name = request.name;
+  event.values = {request.efficiency, request.stuck != 0 ? 1.0 : 0.0};
+  return event;
+}
+
 namespace {
+
+void setActuator(const RunEvent& event, hovercraft::Simulation& simulation) {
+  require(isFault(event), kFaultRuleText);
+  const hovercraft::Scenario& scenario = simulation.scenario();
+  const std::size_t vehicle = vehicleIndex(scenario, event.vehicle);
+  simulation.setActuator(vehicle, actuatorIndex(scenario.vehicles[vehicle], event.name),
+                         event.values[0], event.values[1] != 0.0);
+}
 
 void setMotion(const RunEvent& event, hovercraft::Simulation& simulation) {
   const std::size_t vehicle = vehicleIndex(simulation.scenario(), event.vehicle);
@@ -191,6 +234,9 @@ void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
     }
     case kSetWind:
       simulation.setWind(windOf(event));
+      return;
+    case kSetActuator:
+      setActuator(event, simulation);
       return;
     default:
       throw std::invalid_argument(fmt::format("kind = {}: is no event that is known", event.kind));

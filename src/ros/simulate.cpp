@@ -17,6 +17,7 @@
 #include "hovercraft_sim/ros/commands_bag.h"
 #include "hovercraft_sim/ros/progress_bar.h"
 #include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/actuators_csv.h"
 #include "hovercraft_sim/sim/commands_csv.h"
 #include "hovercraft_sim/sim/contacts_csv.h"
 #include "hovercraft_sim/sim/craft_pilots.h"
@@ -89,6 +90,7 @@ void checkRequest(const SimulateRequest& request) {
   inputs.insert(inputs.end(), request.pilots.begin(), request.pilots.end());
   hovercraft::checkOutputs({{"--output", request.output},
                             {"--contacts", request.contacts},
+                            {"--actuators", request.actuators},
                             {"--cushion", request.cushion}},
                            inputs);
 }
@@ -151,11 +153,12 @@ void reportTimeouts(const hovercraft::RunSummary& summary, const Scenario& scena
     const hovercraft::VehicleScenario& vehicle = scenario.vehicles[timeout.vehicle];
     const auto id = static_cast<std::size_t>(timeout.engine);
     const bool is_engine = id < hovercraft::kFirstActuator;
+    const bool is_newton = is_engine && vehicle.engines[id].command.isPlain();
     messages << fmt::format(
         "{}: {} {} timed out at {} s: {:g}{} were commanded, and then nothing for {} s",
         vehicle.name, is_engine ? "engine" : "actuator", actuatorName(vehicle, id),
         hovercraft::secondsText(timeout.first_tick * scenario.step_ns), timeout.first_commanded,
-        is_engine ? " N" : "", hovercraft::secondsText(parametersOf(vehicle)[id].timeout_ns));
+        is_newton ? " N" : "", hovercraft::secondsText(parametersOf(vehicle)[id].timeout_ns));
     if (timeout.count > 1) messages << fmt::format(" (the first of {} times)", timeout.count);
     messages << "; --hold keeps commands\n";
   }
@@ -213,7 +216,7 @@ std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path, const
 std::vector<std::string> filesOf(const SimulateRequest& request) {
   std::vector<std::string> files = request.pilots;
   for (const std::string* file : {&request.scenario, &request.commands, &request.output,
-                                  &request.contacts, &request.cushion}) {
+                                  &request.contacts, &request.actuators, &request.cushion}) {
     files.push_back(*file);
   }
   return files;
@@ -226,6 +229,10 @@ std::unique_ptr<hovercraft::StateSink> openOutputs(const SimulateRequest& reques
       openOutput(request.output, scenario, request.truth_odom);
   if (!request.contacts.empty()) {
     output = std::make_unique<hovercraft::ContactsCsvWriter>(request.contacts, std::move(output));
+  }
+  if (!request.actuators.empty()) {
+    output = std::make_unique<hovercraft::ActuatorsCsvWriter>(request.actuators, scenario,
+                                                              std::move(output));
   }
   if (!request.cushion.empty()) {
     output = std::make_unique<hovercraft::CushionCsvWriter>(request.cushion, scenario,

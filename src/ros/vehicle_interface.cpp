@@ -4,9 +4,12 @@
 
 #include <ros/console.h>
 #include <ros/transport_hints.h>
+#include <std_msgs/Float32.h>
+#include <std_msgs/Float64.h>
 
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/actuator_topics.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -15,8 +18,6 @@ constexpr std::uint32_t kThrustQueue = 10;     // a burst between two steps; the
 constexpr std::uint32_t kStateQueue = 100;     // one second at 100 Hz for a subscriber that stalls
 constexpr std::uint32_t kCommandQueue = 1000;  // every accepted command belongs in a recording
 
-using hovercraft::kEngineNames;
-
 bool exceedsLimits(const hovercraft::Command& command, const hovercraft::VehicleScenario& craft) {
   for (std::size_t i = 0; i < command.thrusts.size(); ++i) {
     const hovercraft::EngineParameters& limits =
@@ -24,7 +25,7 @@ bool exceedsLimits(const hovercraft::Command& command, const hovercraft::Vehicle
                                        : craft.actuators[i - hovercraft::kFirstActuator].motion;
     const bool addressed = (command.engines & hovercraft::maskOf(i)) != 0;
     if (addressed &&
-        (command.thrusts[i] < limits.min_thrust || command.thrusts[i] > limits.max_thrust)) {
+        limits.command.exceeds(command.thrusts[i], limits.min_thrust, limits.max_thrust)) {
       return true;
     }
   }
@@ -81,20 +82,32 @@ void VehicleInterface::subscribe(ros::NodeHandle& handle) {
       };
   subscribers_.push_back(handle.subscribe<hovercraft_sim::ThrustCommand>(
       kThrustTopic, kThrustQueue, on_thrust, ros::VoidConstPtr(), hints));
-  for (int i = 0; i < hovercraft::kEngineCount; ++i) {
-    if (!craft.has_engine[static_cast<std::size_t>(i)]) continue;
-    const auto engine = static_cast<hovercraft::EngineId>(i);
-    const std::string relative =
-        std::string(kThrustTopic) + "/" + kEngineNames[static_cast<std::size_t>(i)];
-    const std::string topic = handle.resolveName(relative);
-    const boost::function<void(const std_msgs::Float64&)> on_engine =
-        [this, engine, topic](const std_msgs::Float64& message) {
-          take(toCommand(message.data, engine, vehicle_, run_.simulation().tick()), topic,
-               std::nullopt);
-        };
-    subscribers_.push_back(handle.subscribe<std_msgs::Float64>(relative, kThrustQueue, on_engine,
-                                                               ros::VoidConstPtr(), hints));
+  for (std::size_t id = 0; id < hovercraft::kEngineNames.size(); ++id) {
+    if (craft.has_engine[id]) subscribeLevel(handle, id, "a thrust must be finite");
   }
+}
+
+/// An engine or another actuator by itself, on the topic and by the message that its scenario says.
+void VehicleInterface::subscribeLevel(ros::NodeHandle& handle, std::size_t id, const char* rule) {
+  const hovercraft::VehicleScenario& craft = run_.simulation().scenario().vehicles[vehicle_];
+  const std::string relative = hovercraft::commandTopicOf(craft, id);
+  const auto take_value = [this, id, rule, topic = handle.resolveName(relative)](double value) {
+    take(toCommand(value, id, vehicle_, run_.simulation().tick()), topic, std::nullopt, rule);
+  };
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  if (hovercraft::isFloat32(craft, id)) {
+    const boost::function<void(const std_msgs::Float32&)> on_value =
+        [take_value](const std_msgs::Float32& message) {
+          take_value(static_cast<double>(message.data));
+        };
+    subscribers_.push_back(handle.subscribe<std_msgs::Float32>(relative, kThrustQueue, on_value,
+                                                               ros::VoidConstPtr(), hints));
+    return;
+  }
+  const boost::function<void(const std_msgs::Float64&)> on_value =
+      [take_value](const std_msgs::Float64& message) { take_value(message.data); };
+  subscribers_.push_back(handle.subscribe<std_msgs::Float64>(relative, kThrustQueue, on_value,
+                                                             ros::VoidConstPtr(), hints));
 }
 
 void VehicleInterface::subscribeActuators(ros::NodeHandle& handle) {
@@ -110,16 +123,7 @@ void VehicleInterface::subscribeActuators(ros::NodeHandle& handle) {
   subscribers_.push_back(handle.subscribe<hovercraft_sim::ActuatorCommand>(
       kActuatorCommandTopic, kThrustQueue, on_all, ros::VoidConstPtr(), hints));
   for (std::size_t i = 0; i < craft.actuators.size(); ++i) {
-    const std::size_t id = hovercraft::kFirstActuator + i;
-    const std::string relative = std::string(kActuatorsTopic) + "/" + craft.actuators[i].name;
-    const std::string topic = handle.resolveName(relative);
-    const boost::function<void(const std_msgs::Float64&)> on_value =
-        [this, id, topic](const std_msgs::Float64& message) {
-          take(toCommand(message.data, id, vehicle_, run_.simulation().tick()), topic, std::nullopt,
-               "a value must be finite");
-        };
-    subscribers_.push_back(handle.subscribe<std_msgs::Float64>(relative, kThrustQueue, on_value,
-                                                               ros::VoidConstPtr(), hints));
+    subscribeLevel(handle, hovercraft::kFirstActuator + i, "a value must be finite");
   }
 }
 

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/ros/vehicle_messages.h"
 
+#include <algorithm>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -60,7 +61,6 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
     status.name = actuator.name;
     status.id = static_cast<std::uint8_t>(hovercraft::kFirstActuator + actuators_.actuators.size());
     status.kind = hovercraft::actuatorKindNames()[static_cast<std::size_t>(actuator.kind)];
-    status.efficiency = 1.0;
     actuators_.actuators.push_back(status);
   }
   state_.actuators.resize(description_.actuators.size());
@@ -138,7 +138,16 @@ void VehicleMessages::fillActuators(const hovercraft::Simulation& simulation) {
     status.saturated = static_cast<std::uint8_t>(report.saturated);
     status.timed_out = static_cast<std::uint8_t>(report.timed_out);
     status.age = report.command_age;
+    status.efficiency = report.efficiency;
+    status.stuck = static_cast<std::uint8_t>(report.stuck);
     state_.actuators[i] = report.applied;
+  }
+  const hovercraft::EngineStates& all = simulation.state().engines[vehicle_];
+  state_.extra.clear();
+  if (std::none_of(all.begin(), all.end(), [](const auto& one) { return one.isFaulty(); })) return;
+  for (const hovercraft::EngineState& actuator : all) {
+    state_.extra.push_back(actuator.efficiency);
+    state_.extra.push_back(actuator.stuck ? 1.0 : 0.0);
   }
 }
 

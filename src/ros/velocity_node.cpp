@@ -38,6 +38,7 @@ VelocityNodeConfig parseVelocityNodeConfig(const hovercraft::ConfigNode& paramet
   VelocityNodeConfig config;
   config.plant = read.plant;
   config.gains = read.gains;
+  config.commands = read.commands;
   config.timeout = reader.numberOr(config.timeout, "timeout", hovercraft::kPositive);
   return config;
 }
@@ -111,11 +112,13 @@ void VelocityNode::answer(const nav_msgs::Odometry& odometry) {
 /// By one message whatever the actuators are: in lockstep one is taken.
 void VelocityNode::answer(const ros::Time& stamp, const hovercraft::Thrusts& levels) {
   for (std::size_t i = 0; i < config_.plant.actuators.size(); ++i) {
-    const std::string& name = config_.plant.actuators[i].name;
-    if (name == hovercraft::kEngineNames[0]) thrusts_.rear = levels[i];
-    if (name == hovercraft::kEngineNames[1]) thrusts_.left = levels[i];
-    if (name == hovercraft::kEngineNames[2]) thrusts_.right = levels[i];
-    levels_.values[i] = levels[i];
+    const hovercraft::PlantActuator& actuator = config_.plant.actuators[i];
+    const double command =
+        config_.commands[i].commandOf(levels[i], actuator.min_thrust, actuator.max_thrust);
+    if (actuator.name == hovercraft::kEngineNames[0]) thrusts_.rear = command;
+    if (actuator.name == hovercraft::kEngineNames[1]) thrusts_.left = command;
+    if (actuator.name == hovercraft::kEngineNames[2]) thrusts_.right = command;
+    levels_.values[i] = command;
   }
   thrusts_.header.stamp = levels_.header.stamp = stamp;
   if (hasEnginesOnly()) {

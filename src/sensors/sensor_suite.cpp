@@ -59,17 +59,18 @@ SensorSuite::SensorSuite(SensorSuite&&) noexcept = default;
 SensorSuite& SensorSuite::operator=(SensorSuite&&) noexcept = default;
 
 SensedInstant SensorSuite::instantOf(std::size_t vehicle, std::int64_t seed, Tick tick,
-                                     const BodyStates& bodies) const {
-  const BodyState& body = bodies[vehicle];
+                                     const SensedBodies& bodies) const {
+  const BodyState& body = bodies.states[vehicle];
+  const Mobility& mobility = carriers_[vehicle].mobility;
   const Pose X_WB = poseOf(body);
-  return {seed,      tick,
-          X_WB.p_AB, orientationOf(body),
-          X_WB.R_AB, twistOf(body, carriers_[vehicle].mobility),
-          &bodies};
+  const Twist twist = bodies.rotors_B == nullptr
+                          ? twistOf(body, mobility)
+                          : twistOf(body, mobility, (*bodies.rotors_B)[vehicle]);
+  return {seed, tick, X_WB.p_AB, orientationOf(body), X_WB.R_AB, twist, &bodies.states};
 }
 
 std::vector<SensorState> SensorSuite::start(std::int64_t seed, Tick tick,
-                                            const BodyStates& bodies) const {
+                                            const SensedBodies& bodies) const {
   const FloatingPointEnvironment environment;
   std::vector<SensorState> states;
   states.reserve(sensors_.size());
@@ -83,7 +84,7 @@ std::vector<SensorState> SensorSuite::start(std::int64_t seed, Tick tick,
   return states;
 }
 
-void SensorSuite::sample(std::int64_t seed, Tick tick, const BodyStates& bodies,
+void SensorSuite::sample(std::int64_t seed, Tick tick, const SensedBodies& bodies,
                          std::vector<SensorState>& states) {
   const FloatingPointEnvironment environment;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
@@ -113,7 +114,7 @@ void SensorSuite::deliver(Tick tick, std::vector<SensorState>& states,
 }
 
 void SensorSuite::relocate(std::size_t vehicle, std::int64_t seed, Tick tick,
-                           const BodyStates& bodies, std::vector<SensorState>& states) const {
+                           const SensedBodies& bodies, std::vector<SensorState>& states) const {
   const FloatingPointEnvironment environment;
   for (std::size_t i = 0; i < sensors_.size(); ++i) {
     if (sensors_[i].vehicle != vehicle) continue;

@@ -1,5 +1,7 @@
 #include "hovercraft_sim/sim/actuator_forces.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "hovercraft_sim/math/constants.h"
@@ -23,7 +25,7 @@ PropellerForce propellerOf(std::size_t id, const ActuatorScenario& propeller,
   force.place = placeOf(propeller, vehicle);
   force.diameter = propeller.diameter;
   force.thrust_scale = propeller.air_density * (square * square);
-  force.torque_scale = propeller.turn * (force.thrust_scale * propeller.diameter);
+  force.torque_scale = propeller.motion.rotor.turn * (force.thrust_scale * propeller.diameter);
   force.thrust_coefficients = propeller.thrust_coefficients;
   force.torque_coefficients = propeller.torque_coefficients;
   return force;
@@ -74,6 +76,26 @@ std::vector<Force> forcesOf(const VehicleScenario& vehicle) {
     }
   }
   return forces;
+}
+
+std::vector<Rotor> rotorsOf(const VehicleScenario& vehicle) {
+  std::vector<Rotor> rotors;
+  const auto add = [&](std::size_t id, const EngineParameters& actuator, bool is_thrust) {
+    const RotorParameters& spins = actuator.rotor;
+    const double limit = std::max(-actuator.min_thrust, actuator.max_thrust);
+    if (!(spins.inertia > 0.0) || !(limit > 0.0)) return;
+    const double momentum = spins.inertia * spins.speed;
+    rotors.push_back({id, is_thrust,
+                      spins.turn * (is_thrust ? momentum / std::sqrt(limit) : momentum),
+                      is_thrust ? momentum : momentum * limit, actuator.direction});
+  };
+  for (std::size_t id = 0; id < vehicle.engines.size(); ++id) add(id, vehicle.engines[id], true);
+  for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
+    const ActuatorScenario& actuator = vehicle.actuators[i];
+    if (actuator.kind == ActuatorKind::kRudder) continue;
+    add(kFirstActuator + i, actuator.motion, actuator.kind == ActuatorKind::kFan);
+  }
+  return rotors;
 }
 
 std::vector<FanDrive> fanDrivesOf(const VehicleScenario& vehicle) {

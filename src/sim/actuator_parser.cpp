@@ -1,10 +1,15 @@
 #include "hovercraft_sim/sim/actuator_parser.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <initializer_list>
 
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/sim/actuator_topics.h"
+#include "hovercraft_sim/sim/command_parser.h"
 #include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/step_time.h"
 #include "hovercraft_sim/sim/yaml_text.h"
@@ -30,61 +35,98 @@ Vector3 unitVector(const ConfigReader& reader, const char* key, const Vector3& v
   return vector;
 }
 
+/// Of an actuator whose rotor turns at `speed` rad/s at a level of 1; where that is 0,
+/// `rotor_speed` says how fast.
+RotorParameters parseRotor(const ConfigReader& reader, double speed) {
+  RotorParameters rotor;
+  rotor.turn = reader.choiceOr(0, "rotation", rotationNames()) == 0 ? 1.0 : -1.0;
+  rotor.inertia = reader.numberOr(0.0, "rotor_inertia", kNotNegative);
+  rotor.speed = speed;
+  if (speed > 0.0) return rotor;
+  if (rotor.inertia > 0.0) {
+    rotor.speed = reader.number("rotor_speed", kPositive);
+  } else if (reader.has("rotor_speed")) {
+    reader.fail("rotor_speed", "has a meaning with a rotor_inertia greater than 0 only");
+  }
+  if (!std::isfinite(rotor.inertia * rotor.speed)) {
+    reader.fail("rotor_speed", "times rotor_inertia must be finite");
+  }
+  return rotor;
+}
+
 void parseMotion(const ConfigReader& reader, double default_timeout, EngineParameters& motion) {
   motion.time_constant = reader.numberOr(0.0, "time_constant", kNotNegative);
   motion.timeout_ns =
       nanosecondsOf(reader, "timeout", reader.numberOr(default_timeout, "timeout", kNotNegative));
 }
 
+/// The word for a command that is the level itself.
+const char* unitOf(ActuatorKind kind) {
+  static constexpr std::array<const char*, 4> kUnits = {"newton", "per_second", "share", "radian"};
+  return kUnits[static_cast<std::size_t>(kind)];
+}
+
+/// The keys of all kinds, and those of one.
+void allowKeys(const ConfigReader& reader, std::initializer_list<const char*> own) {
+  std::vector<std::string> keys = {"kind",    "position", "time_constant", "timeout",
+                                   "initial", "command",  "type",          "topic"};
+  keys.insert(keys.end(), own.begin(), own.end());
+  reader.allowOnly(keys);
+}
+
 EngineParameters parseEngine(const ConfigReader& reader) {
-  reader.allowOnly(
-      {"position", "direction", "min_thrust", "max_thrust", "time_constant", "timeout"});
+  reader.allowOnly({"position", "direction", "min_thrust", "max_thrust", "time_constant", "timeout",
+                    "command", "thrust_table", "type", "topic", "rotation", "rotor_inertia",
+                    "rotor_speed"});
   EngineParameters engine;
   engine.p_HE = reader.vector("position", kCoordinate);
   engine.direction = unitVector(reader, "direction", reader.vector("direction"));
   engine.min_thrust = reader.number("min_thrust", kNotPositive);
   engine.max_thrust = reader.number("max_thrust", kNotNegative);
+  engine.rotor = parseRotor(reader, 0.0);
+  engine.command = parseCommandMap(reader, unitOf(ActuatorKind::kFan), true);
   parseMotion(reader, kDefaultCommandTimeout, engine);
   return engine;
 }
 
 void parseFan(const ConfigReader& reader, ActuatorScenario& fan) {
-  reader.allowOnly({"kind", "position", "direction", "min_thrust", "max_thrust", "time_constant",
-                    "timeout", "initial", "free_speed"});
+  allowKeys(reader, {"direction", "min_thrust", "max_thrust", "free_speed", "thrust_table",
+                     "rotation", "rotor_inertia", "rotor_speed"});
   fan.motion.p_HE = reader.vector("position", kCoordinate);
   fan.motion.direction = unitVector(reader, "direction", reader.vector("direction"));
   fan.motion.min_thrust = reader.number("min_thrust", kNotPositive);
   fan.motion.max_thrust = reader.number("max_thrust", kNotNegative);
+  fan.motion.rotor = parseRotor(reader, 0.0);
   fan.free_speed = reader.numberOr(0.0, "free_speed", kNotNegative);
   parseMotion(reader, kDefaultCommandTimeout, fan.motion);
 }
 
 void parsePropeller(const ConfigReader& reader, ActuatorScenario& propeller) {
-  reader.allowOnly({"kind", "position", "direction", "min_speed", "max_speed", "time_constant",
-                    "timeout", "initial", "diameter", "air_density", "rotation",
-                    "thrust_coefficients", "torque_coefficients"});
+  allowKeys(reader, {"direction", "min_speed", "max_speed", "diameter", "air_density", "rotation",
+                     "rotor_inertia", "thrust_coefficients", "torque_coefficients"});
   propeller.motion.p_HE = reader.vector("position", kCoordinate);
   propeller.motion.direction = unitVector(reader, "direction", reader.vector("direction"));
   propeller.motion.min_thrust = reader.number("min_speed", kNotPositive);
   propeller.motion.max_thrust = reader.number("max_speed", kNotNegative);
   propeller.diameter = reader.length("diameter");
-  propeller.turn = reader.choiceOr(0, "rotation", rotationNames()) == 0 ? 1.0 : -1.0;
+  propeller.motion.rotor = parseRotor(reader, 2.0 * kPi);
   propeller.thrust_coefficients = reader.vector("thrust_coefficients");
   propeller.torque_coefficients = reader.vectorOr(Vector3::Zero(), "torque_coefficients");
   parseMotion(reader, kDefaultCommandTimeout, propeller.motion);
 }
 
 void parseLiftFan(const ConfigReader& reader, ActuatorScenario& fan) {
-  reader.allowOnly({"kind", "position", "time_constant", "timeout", "initial"});
+  allowKeys(reader, {"axis", "rotation", "rotor_inertia", "rotor_speed"});
+  fan.motion.direction = unitVector(reader, "axis", reader.vectorOr(Vector3::UnitZ(), "axis"));
+  fan.motion.rotor = parseRotor(reader, 0.0);
   fan.motion.p_HE = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
   fan.motion.max_thrust = 1.0;
   parseMotion(reader, kNoTimeout, fan.motion);
 }
 
 void parseRudder(const ConfigReader& reader, ActuatorScenario& rudder) {
-  reader.allowOnly({"kind", "position", "direction", "hinge", "fan", "disc_diameter", "area",
-                    "lift_slope", "drag_at_rest", "drag_growth", "air_density", "max_angle",
-                    "time_constant", "timeout", "initial"});
+  allowKeys(reader, {"direction", "hinge", "fan", "disc_diameter", "area", "lift_slope",
+                     "drag_at_rest", "drag_growth", "air_density", "max_angle"});
   rudder.motion.p_HE = reader.vector("position", kCoordinate);
   rudder.motion.direction =
       unitVector(reader, "direction", reader.vectorOr(Vector3::UnitX(), "direction"));
@@ -125,6 +167,9 @@ ActuatorScenario parseActuator(const std::string& name, const ConfigReader& read
       parseRudder(reader, actuator);
       break;
   }
+  actuator.motion.command =
+      parseCommandMap(reader, unitOf(actuator.kind), actuator.kind == ActuatorKind::kFan);
+  actuator.topic = parseCommandTopic(reader);
   actuator.air_density = reader.numberOr(kStandardAirDensity, "air_density", kPositive);
   // A lift fan runs when the run begins.
   const double initial = actuator.kind == ActuatorKind::kLiftFan ? 1.0 : 0.0;
@@ -155,27 +200,46 @@ void checkFanOf(const ConfigReader& reader, ActuatorScenario& rudder,
   if (rudder.diameter == 0.0) reader.fail("disc_diameter", "the key is missing: that of the fan");
 }
 
+std::string rotationName(const RotorParameters& rotor) {
+  return rotationNames()[rotor.turn > 0.0 ? 0 : 1];
+}
+
+std::string ofRotor(const RotorParameters& rotor) {
+  return rotor.inertia > 0.0 ? ", rotor_inertia: " + yamlNumber(rotor.inertia) : "";
+}
+
+/// Of a rotor that counts, with a comma before each key; the rotation is said where it is not yet.
+std::string rotorYaml(const RotorParameters& rotor) {
+  if (!(rotor.inertia > 0.0)) return "";
+  return fmt::format(", rotation: {}, rotor_inertia: {}, rotor_speed: {}", rotationName(rotor),
+                     yamlNumber(rotor.inertia), yamlNumber(rotor.speed));
+}
+
 std::string motionYaml(const ActuatorScenario& actuator) {
   return fmt::format(
-      "time_constant: {}, timeout: {}, initial: {}}}\n", yamlNumber(actuator.motion.time_constant),
-      yamlNumber(toSeconds(actuator.motion.timeout_ns)), yamlNumber(actuator.initial));
+      "time_constant: {}, timeout: {}, initial: {}{}{}}}\n",
+      yamlNumber(actuator.motion.time_constant), yamlNumber(toSeconds(actuator.motion.timeout_ns)),
+      yamlNumber(actuator.initial), commandMapYaml(actuator.motion.command, unitOf(actuator.kind)),
+      commandTopicYaml(actuator.topic));
 }
 
 std::string kindYaml(const ActuatorScenario& actuator) {
   const EngineParameters& motion = actuator.motion;
   switch (actuator.kind) {
     case ActuatorKind::kFan:
-      return fmt::format("direction: {}, min_thrust: {}, max_thrust: {}, free_speed: {}, ",
+      return fmt::format("direction: {}, min_thrust: {}, max_thrust: {}, free_speed: {}{}, ",
                          yamlVector(motion.direction), yamlNumber(motion.min_thrust),
-                         yamlNumber(motion.max_thrust), yamlNumber(actuator.free_speed));
+                         yamlNumber(motion.max_thrust), yamlNumber(actuator.free_speed),
+                         rotorYaml(motion.rotor));
     case ActuatorKind::kPropeller:
       return fmt::format(
           "direction: {}, min_speed: {}, max_speed: {}, diameter: {}, air_density: {}, rotation: "
-          "{}, thrust_coefficients: {}, torque_coefficients: {}, ",
+          "{}{}, thrust_coefficients: {}, torque_coefficients: {}, ",
           yamlVector(motion.direction), yamlNumber(motion.min_thrust),
           yamlNumber(motion.max_thrust), yamlNumber(actuator.diameter),
-          yamlNumber(actuator.air_density), rotationNames()[actuator.turn > 0.0 ? 0 : 1],
-          yamlVector(actuator.thrust_coefficients), yamlVector(actuator.torque_coefficients));
+          yamlNumber(actuator.air_density), rotationName(motion.rotor),
+          ofRotor(motion.rotor), yamlVector(actuator.thrust_coefficients),
+          yamlVector(actuator.torque_coefficients));
     case ActuatorKind::kRudder: {
       const std::string fan =
           actuator.fan.empty() ? ""
@@ -190,7 +254,7 @@ std::string kindYaml(const ActuatorScenario& actuator) {
           yamlNumber(motion.max_thrust));
     }
     case ActuatorKind::kLiftFan:
-      break;
+      return fmt::format("axis: {}{}, ", yamlVector(motion.direction), rotorYaml(motion.rotor));
   }
   return "";
 }
@@ -205,6 +269,7 @@ void parseEngines(const ConfigReader& craft, VehicleScenario& vehicle) {
   for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
     if (!engines.has(kEngineNames[i])) continue;
     vehicle.engines[i] = parseEngine(engines.map(kEngineNames[i]));
+    vehicle.engine_topics[i] = parseCommandTopic(engines.map(kEngineNames[i]));
     vehicle.has_engine[i] = true;
   }
 }
@@ -230,6 +295,26 @@ std::vector<ActuatorScenario> parseActuators(const ConfigReader& reader) {
     }
   }
   return actuators;
+}
+
+std::string enginesYaml(const VehicleScenario& vehicle) {
+  if (!vehicle.has_engine[0] && !vehicle.has_engine[1] && !vehicle.has_engine[2]) {
+    return vehicle.actuators.empty() ? "    engines: {}\n" : "";
+  }
+  std::string yaml = "    engines:\n";
+  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
+    if (!vehicle.has_engine[i]) continue;
+    const EngineParameters& engine = vehicle.engines[i];
+    yaml += fmt::format(
+        "      {}: {{position: {}, direction: {}, min_thrust: {}, max_thrust: {}, "
+        "time_constant: {}, timeout: {}{}{}{}}}\n",
+        kEngineNames[i], yamlVector(engine.p_HE), yamlVector(engine.direction),
+        yamlNumber(engine.min_thrust), yamlNumber(engine.max_thrust),
+        yamlNumber(engine.time_constant), yamlNumber(toSeconds(engine.timeout_ns)),
+        rotorYaml(engine.rotor), commandMapYaml(engine.command, unitOf(ActuatorKind::kFan)),
+        commandTopicYaml(vehicle.engine_topics[i]));
+  }
+  return yaml;
 }
 
 std::string actuatorsYaml(const VehicleScenario& vehicle) {

@@ -18,7 +18,7 @@ std::string columns(const Vector3& v) {
 const char* const kContactKindNames[3] = {"bounce", "stick", "rest"};
 
 ContactsCsvWriter::ContactsCsvWriter(const std::string& path, std::unique_ptr<StateSink> next)
-    : file_(path), next_(std::move(next)) {
+    : RelaySink(std::move(next)), file_(path) {
   const std::string header = "time,kind,a,b,x,y,z,nx,ny,nz,jx,jy,jz\n";
   file_.write(header.data(), header.size());
 }
@@ -29,12 +29,12 @@ void ContactsCsvWriter::contact(const ContactEvent& event) {
                   kContactKindNames[static_cast<std::size_t>(event.kind)], event.a, event.b,
                   columns(event.p_WC), columns(event.nhat_AB_W), columns(event.impulse_B_W));
   file_.write(row.data(), row.size());
-  next_->contact(event);
+  RelaySink::contact(event);
 }
 
 void ContactsCsvWriter::close() {
   file_.close();
-  next_->close();
+  RelaySink::close();
 }
 
 }  // namespace hovercraft

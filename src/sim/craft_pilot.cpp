@@ -14,7 +14,9 @@ CraftPilot::CraftPilot(PilotFile file, std::int64_t step_ns)
   command_.vehicle = file_.vehicle;
   command_.engines = 0;
   command_.thrusts.resize(file_.idle.size());
-  std::copy(file_.idle.begin(), file_.idle.end(), command_.thrusts.begin());
+  for (std::size_t id = 0; id < file_.idle.size(); ++id) {
+    command_.thrusts[id] = commandOf(id, file_.idle[id]);
+  }
   const auto is_other = [](std::size_t id) { return id >= kFirstActuator; };
   const bool has_others = std::any_of(file_.channels.begin(), file_.channels.end(), is_other);
   for (const std::size_t id : file_.channels) {
@@ -24,6 +26,12 @@ CraftPilot::CraftPilot(PilotFile file, std::int64_t step_ns)
   }
 }
 
+/// What commands a level of an actuator.
+double CraftPilot::commandOf(std::size_t id, double level) const {
+  const EngineParameters& actuator = file_.actuators[id];
+  return actuator.command.commandOf(level, actuator.min_thrust, actuator.max_thrust);
+}
+
 const Command& CraftPilot::decide(const ObservedMotion& motion) {
   const FloatingPointEnvironment environment;
   const PlanarMotion seen = watch_.see(toSeconds(motion.tick * step_ns_), motion.p_WB, motion.q_WB,
@@ -31,7 +39,7 @@ const Command& CraftPilot::decide(const ObservedMotion& motion) {
   const Levels& decided = pilot_.decide(seen);
   const Levels& levels = decided.empty() ? file_.idle : decided;
   command_.tick = motion.tick;
-  for (const std::size_t id : file_.channels) command_.thrusts[id] = levels[id];
+  for (const std::size_t id : file_.channels) command_.thrusts[id] = commandOf(id, levels[id]);
   if (pilot_.isDone() && flown_tick_ < 0) flown_tick_ = motion.tick;
   is_over_ = flown_tick_ >= 0 && motion.tick >= flown_tick_ + firstTickAt(kPilotSettleNs, step_ns_);
   return command_;

@@ -11,7 +11,7 @@ namespace hovercraft {
 
 CushionCsvWriter::CushionCsvWriter(const std::string& path, const Scenario& scenario,
                                    std::unique_ptr<StateSink> next)
-    : file_(path), next_(std::move(next)) {
+    : RelaySink(std::move(next)), file_(path) {
   const auto has_cushion = [](const VehicleScenario& vehicle) {
     return vehicle.cushion.has_value();
   };
@@ -38,12 +38,12 @@ void CushionCsvWriter::state(const Simulation& simulation) {
       file_.write(row.data(), row.size());
     }
   }
-  next_->state(simulation);
+  RelaySink::state(simulation);
 }
 
 void CushionCsvWriter::close() {
   file_.close();
-  next_->close();
+  RelaySink::close();
 }
 
 }  // namespace hovercraft

@@ -114,6 +114,7 @@ void PilotParser::chooseVehicle() {
   file_.vehicle = reader_.choiceOr(0, "vehicle", crafts);
   craft_ = &scenario_.vehicles[file_.vehicle];
   parameters_ = parametersOf(*craft_);
+  file_.actuators = parameters_;
   const EngineStates initial = initialActuators(*craft_);
   for (std::size_t id = 0; id < parameters_.size(); ++id) {
     const bool is_there = id >= kFirstActuator || craft_->has_engine[id];

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/actuator_parser.h"
+#include "hovercraft_sim/sim/actuator_topics.h"
 #include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/cushion_parser.h"
@@ -235,6 +236,7 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   scenario.ground = parseGround(reader, source);
   parseWorld(reader, source, scenario);
   checkCushions(reader, source, scenario);
+  checkCommandTopics(reader, scenario);
   parseSensors(reader, scenario);
   return scenario;
 }

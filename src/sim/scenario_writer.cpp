@@ -64,29 +64,11 @@ std::string massText(const VehicleScenario& vehicle) {
   return parts;
 }
 
-std::string engineText(const VehicleScenario& vehicle) {
-  if (!vehicle.has_engine[0] && !vehicle.has_engine[1] && !vehicle.has_engine[2]) {
-    return vehicle.actuators.empty() ? "    engines: {}\n" : "";
-  }
-  std::string yaml = "    engines:\n";
-  for (std::size_t i = 0; i < kEngineNames.size(); ++i) {
-    if (!vehicle.has_engine[i]) continue;
-    const EngineParameters& engine = vehicle.engines[i];
-    yaml += fmt::format(
-        "      {}: {{position: {}, direction: {}, min_thrust: {}, max_thrust: {}, "
-        "time_constant: {}, timeout: {}}}\n",
-        kEngineNames[i], yamlVector(engine.p_HE), yamlVector(engine.direction),
-        yamlNumber(engine.min_thrust), yamlNumber(engine.max_thrust),
-        yamlNumber(engine.time_constant), yamlNumber(toSeconds(engine.timeout_ns)));
-  }
-  return yaml;
-}
-
 /// A craft, or a loose body, which has no engines to write.
 std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario,
                         bool has_engines) {
   std::string yaml = fmt::format("  {}:\n{}", yamlText(vehicle.name), massText(vehicle));
-  if (has_engines) yaml += engineText(vehicle) + actuatorsYaml(vehicle) + sensorsYaml(vehicle);
+  if (has_engines) yaml += enginesYaml(vehicle) + actuatorsYaml(vehicle) + sensorsYaml(vehicle);
   yaml += surfaceYaml(vehicle, scenario);
   yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";

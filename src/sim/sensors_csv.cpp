@@ -33,7 +33,7 @@ std::string headerOf(const SensorParameters& sensor) {
 SensorsCsvWriter::SensorsCsvWriter(const std::string& folder, const Scenario& scenario,
                                    const std::vector<std::string>& taken,
                                    std::unique_ptr<StateSink> next)
-    : step_ns_(scenario.step_ns), next_(std::move(next)) {
+    : RelaySink(std::move(next)), step_ns_(scenario.step_ns) {
   std::vector<OutputOption> outputs;
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     for (const SensorParameters& sensor : vehicle.sensors) {
@@ -76,14 +76,14 @@ void SensorsCsvWriter::sample(const SensorSample& sample) {
   }
   row.push_back('\n');
   sensor.file->write(row.data(), row.size());
-  next_->sample(sample);
+  RelaySink::sample(sample);
 }
 
 void SensorsCsvWriter::close() {
   for (auto& craft : sensors_) {
     for (Sensor& sensor : craft) sensor.file->close();
   }
-  next_->close();
+  RelaySink::close();
 }
 
 }  // namespace hovercraft

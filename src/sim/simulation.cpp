@@ -80,8 +80,7 @@ void Simulation::reset(std::int64_t seed) {
     state_.engines.push_back(initialActuators(vehicle));
   }
   const auto start = [this](const VehicleScenario& body) {
-    const Mobility& mobility = modelOf(state_.bodies.size()).mobility;
-    state_.bodies.push_back(initialState(scenario_, body, mobility));
+    state_.bodies.push_back(initialState(scenario_, body, modelOf(state_.bodies.size()).mobility));
   };
   for (const VehicleScenario& vehicle : scenario_.vehicles) start(vehicle);
   if (scenario_.world) {
@@ -93,7 +92,7 @@ void Simulation::reset(std::int64_t seed) {
     state_.gusts.push_back(gusts_->start(body, seed));
   }
   refreshWind();
-  if (sensors_) state_.sensors = sensors_->start(seed, state_.tick, state_.bodies);
+  if (sensors_) state_.sensors = sensors_->start(seed, state_.tick, sensedBodies());
 }
 
 void Simulation::restore(const SimulationState& state) {
@@ -112,7 +111,7 @@ void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quate
                            const Twist& twist) {
   const FloatingPointEnvironment environment;
   demand(vehicle < vehicleCount(), "a motion must name a vehicle of the scenario");
-  state_.bodies[vehicle] = placed(p_WB, q_WB, twist, modelOf(vehicle).mobility);
+  state_.bodies[vehicle] = placed(vehicle, p_WB, q_WB, twist);
   if (scenario_.world) {
     const auto index = static_cast<std::int32_t>(vehicle);
     auto& contacts = state_.contacts;
@@ -124,15 +123,19 @@ void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quate
     world_.partTouching(state_.bodies, index);
   }
   if (!sensors_) return;
-  sensors_->relocate(vehicle, state_.seed, state_.tick, state_.bodies, state_.sensors);
+  sensors_->relocate(vehicle, state_.seed, state_.tick, sensedBodies(), state_.sensors);
 }
 
-BodyState Simulation::placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
-                             const Mobility& mobility) const {
-  if (scenario_.orientation == OrientationKind::kQuaternion) {
-    return mobility.stateOfMotion(p_WB, renormalized(q_WB), twist);
-  }
-  return mobility.stateOfMotion(p_WB, renormalized(rotationMatrix(q_WB)), twist);
+/// The state of a craft that moves so, its rotors as they turn.
+BodyState Simulation::placed(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
+                             const Twist& twist) const {
+  const HovercraftModel& model = modelOf(vehicle);
+  const auto at = [&](const auto& orientation) -> BodyState {
+    if (model.rotors.empty()) return model.mobility.stateOfMotion(p_WB, orientation, twist);
+    return model.mobility.stateOfMotion(p_WB, orientation, twist, rotorsOf(vehicle));
+  };
+  if (scenario_.orientation == OrientationKind::kQuaternion) return at(renormalized(q_WB));
+  return at(renormalized(rotationMatrix(q_WB)));
 }
 
 std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vector3& p_WB,
@@ -140,7 +143,7 @@ std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vec
   const FloatingPointEnvironment environment;
   if (!scenario_.world) return std::nullopt;
   std::vector<BodyState> states = state_.bodies;
-  states.at(vehicle) = placed(p_WB, q_WB, Twist(), modelOf(vehicle).mobility);
+  states.at(vehicle) = placed(vehicle, p_WB, q_WB, Twist());
   const auto index = static_cast<int>(vehicle);
   if (auto overlap = world_.overlap(states, index)) return overlap;
   world_.partTouching(states, index);
@@ -298,39 +301,20 @@ ContactEvent Simulation::eventOf(const ContactRecord& record) const {
   return event;
 }
 
-namespace {
-
-Motion motionOf(const HovercraftModel& model, const BodyState& state) {
-  return std::visit(
-      [&](const auto& body) -> Motion {
-        const double potential = -dot(model.weight_W, body.p_WB);
-        return {body.p_WB,
-                toQuaternion(body.orientation),
-                model.mobility.twist(body),
-                body.momentum_W,
-                body.angular_momentum_W,
-                kineticEnergy(body, model.mobility) + potential};
-      },
-      state);
-}
-
-}  // namespace
-
 Motion Simulation::motion(std::size_t vehicle) const {
   const FloatingPointEnvironment environment;
-  return motionOf(modelOf(vehicle), state_.bodies[vehicle]);
+  return motionOf(vehicle, state_.bodies[vehicle]);
 }
 
 Motion Simulation::motionAfterSetting(std::size_t vehicle, const Vector3& p_WB,
                                       const Quaternion& q_WB, const Twist& twist) const {
   const FloatingPointEnvironment environment;
-  const HovercraftModel& model = modelOf(vehicle);
-  return motionOf(model, placed(p_WB, q_WB, twist, model.mobility));
+  return motionOf(vehicle, placed(vehicle, p_WB, q_WB, twist));
 }
 
 Motion Simulation::bodyMotion(std::size_t body) const {
   const FloatingPointEnvironment environment;
-  return motionOf(modelOf(vehicleCount() + body), state_.bodies[vehicleCount() + body]);
+  return motionOf(vehicleCount() + body, state_.bodies[vehicleCount() + body]);
 }
 
 std::size_t Simulation::cellCount(std::size_t vehicle) const {
@@ -347,7 +331,10 @@ void Simulation::cushionReport(std::size_t vehicle, CushionReport& report) const
   if (report.cells.empty()) return;
   const Environment& around = inputs_[vehicle].environment;
   const BodyMotion motion = std::visit(
-      [&](const auto& state) { return model.motionInBody(state, around); }, state_.bodies[vehicle]);
+      [&](const auto& state) {
+        return model.motionInBody(state, levelsOf(state_.engines[vehicle]), around);
+      },
+      state_.bodies[vehicle]);
   const GroundForces& forces = *model.ground_forces;
   FanSpeeds speeds = forces.cushion()->describedSpeeds(toSeconds(timeNs()));
   for (const FanDrive& drive : fan_drives_[vehicle]) {
@@ -364,8 +351,13 @@ EngineReport Simulation::engineReport(std::size_t vehicle, int engine) const {
   const EngineState& state = state_.engines[vehicle][static_cast<std::size_t>(engine)];
   const EngineDynamics& dynamics = engine_dynamics_[vehicle];
   const std::int64_t age_ns = dynamics.commandAge(state, state_.tick);
-  return {state.commanded, state.thrust, dynamics.isSaturated(engine, state),
-          dynamics.isTimedOut(engine, state, state_.tick), age_ns < 0 ? -1.0 : toSeconds(age_ns)};
+  return {state.commanded,
+          state.thrust,
+          dynamics.isSaturated(engine, state),
+          dynamics.isTimedOut(engine, state, state_.tick),
+          age_ns < 0 ? -1.0 : toSeconds(age_ns),
+          state.efficiency,
+          state.stuck};
 }
 
 std::uint64_t Simulation::hash(std::size_t vehicle) const {
@@ -377,6 +369,7 @@ std::uint64_t Simulation::hash(std::size_t vehicle) const {
     if (wrench.vehicle == vehicle) hash.add(wrench);
   }
   addAir(hash, vehicle, vehicle + 1);
+  addFaults(hash, vehicle, vehicle + 1);
   return hash.value();
 }
 
@@ -391,6 +384,7 @@ std::uint64_t Simulation::hash() const {
   for (std::size_t i = vehicleCount(); i < state_.bodies.size(); ++i) hash.add(state_.bodies[i]);
   for (const ContactMemory& contact : state_.contacts) hash.add(contact);
   addAir(hash, 0, state_.bodies.size());
+  addFaults(hash, 0, vehicleCount());
   return hash.value();
 }
 

@@ -7,10 +7,20 @@
 /// What a simulation does with sensors: it has them read its bodies, and hands their samples on.
 
 namespace hovercraft {
+
+SensedBodies Simulation::sensedBodies() {
+  bool any = false;
+  for (std::size_t i = 0; i < vehicleCount(); ++i) any = any || !modelOf(i).rotors.empty();
+  if (!any) return {state_.bodies};
+  rotors_B_.resize(vehicleCount());
+  for (std::size_t i = 0; i < vehicleCount(); ++i) rotors_B_[i] = rotorsOf(i);
+  return {state_.bodies, rotors_B_};
+}
+
 void Simulation::readSensors() {
   {
     const FloatingPointEnvironment environment;
-    sensors_->sample(state_.seed, state_.tick, state_.bodies, state_.sensors);
+    sensors_->sample(state_.seed, state_.tick, sensedBodies(), state_.sensors);
   }
   sensors_->deliver(state_.tick, state_.sensors, on_sample);
 }

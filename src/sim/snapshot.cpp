@@ -40,8 +40,13 @@ std::string bodyText(const BodyState& state) {
 }
 
 std::string actuatorText(const EngineState& state) {
-  return fmt::format("{{commanded: {}, thrust: {}, command_tick: {}}}\n",
-                     yamlNumber(state.commanded), yamlNumber(state.thrust), state.command_tick);
+  const std::string fault =
+      state.isFaulty() ? fmt::format(", efficiency: {}, stuck: {}", yamlNumber(state.efficiency),
+                                     state.stuck ? "true" : "false")
+                       : "";
+  return fmt::format("{{commanded: {}, thrust: {}, command_tick: {}{}}}\n",
+                     yamlNumber(state.commanded), yamlNumber(state.thrust), state.command_tick,
+                     fault);
 }
 
 std::string vehicleText(const VehicleScenario& vehicle, const BodyState& body,

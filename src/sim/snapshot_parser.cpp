@@ -25,6 +25,9 @@ namespace {
 /// 146 years: ticks times the step size, and what is added to them, fit 64 bits.
 constexpr std::int64_t kMostTimeNs = std::int64_t{1} << 62U;
 
+const NumberRule kEfficiency = {[](double share) { return share >= 0.0 && share <= 1.0; },
+                                "must be 0 to 1"};
+
 // The limits hold to rounding: the lag computes a thrust from two others.
 constexpr double kThrustSlack = 1e-9;
 
@@ -108,9 +111,11 @@ void requireCount(const ConfigReader& reader, const char* key, std::size_t count
 }
 
 EngineState parseEngine(const ConfigReader& reader, const EngineParameters& engine, Tick now) {
-  reader.allowOnly({"commanded", "thrust", "command_tick"});
+  reader.allowOnly({"commanded", "thrust", "command_tick", "efficiency", "stuck"});
   const EngineState state = {reader.number("commanded"), reader.number("thrust"),
-                             wholeNumber(reader, "command_tick", EngineState::kNever, now)};
+                             wholeNumber(reader, "command_tick", EngineState::kNever, now),
+                             reader.numberOr(1.0, "efficiency", kEfficiency),
+                             reader.flagOr(false, "stuck")};
   const double slack = kThrustSlack * std::max(-engine.min_thrust, engine.max_thrust);
   if (state.thrust < engine.min_thrust - slack || state.thrust > engine.max_thrust + slack) {
     reader.fail("thrust", "must be within the limits of the engine");

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/command_parser.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
@@ -28,7 +29,7 @@ constexpr std::array<std::array<const char*, 2>, 3> kLimits = {
 
 void parsePropellerOfPlant(const ConfigReader& reader, PlantActuator& propeller) {
   reader.allowOnly({"kind", "x", "y", "direction_x", "direction_y", "min_speed", "max_speed",
-                    "air_density", "diameter", "thrust_coefficients"});
+                    "air_density", "diameter", "thrust_coefficients", "command"});
   propeller.air_density = reader.number("air_density", kPositive);
   propeller.diameter = reader.length("diameter");
   propeller.thrust_coefficients = reader.vector("thrust_coefficients");
@@ -40,7 +41,7 @@ void parsePropellerOfPlant(const ConfigReader& reader, PlantActuator& propeller)
 void parseRudderOfPlant(const ConfigReader& reader, PlantActuator& rudder) {
   reader.allowOnly({"kind", "x", "y", "direction_x", "direction_y", "across_x", "across_y",
                     "min_angle", "max_angle", "air_density", "area", "lift_slope", "fan",
-                    "disc_diameter"});
+                    "disc_diameter", "command"});
   rudder.across_x = reader.number("across_x", kCoordinate);
   rudder.across_y = reader.number("across_y", kCoordinate);
   rudder.air_density = reader.number("air_density", kPositive);
@@ -60,8 +61,8 @@ PlantActuator parsePlantActuator(const std::string& name, const ConfigReader& re
   } else if (actuator.kind == PlantActuator::Kind::kRudder) {
     parseRudderOfPlant(reader, actuator);
   } else {
-    reader.allowOnly(
-        {"kind", "x", "y", "direction_x", "direction_y", "min_thrust", "max_thrust", "free_speed"});
+    reader.allowOnly({"kind", "x", "y", "direction_x", "direction_y", "min_thrust", "max_thrust",
+                      "free_speed", "command", "thrust_table"});
     actuator.free_speed = reader.numberOr(0.0, "free_speed", kNotNegative);
   }
   actuator.x = reader.number("x", kCoordinate);
@@ -148,7 +149,10 @@ Vector3 quadraticOf(const DragPolar& polar) {
           0.0};
 }
 
-std::string plantActuatorText(const PlantActuator& a) {
+/// The word for a command that is the level itself.
+constexpr const char* kLevelWord = "level";
+
+std::string plantActuatorText(const PlantActuator& a, const CommandMap& command) {
   const auto& limits = kLimits[static_cast<std::size_t>(a.kind)];
   std::string text = fmt::format(
       "  {}: {{{}x: {}, y: {}, direction_x: {}, direction_y: {}, {}: {}, {}: {}", a.name,
@@ -171,6 +175,7 @@ std::string plantActuatorText(const PlantActuator& a) {
       text += fmt::format(", fan: {}, disc_diameter: {}", yamlText(a.fan), yamlNumber(a.diameter));
     }
   }
+  if (!command.isPlain()) text += commandMapYaml(command, kLevelWord);
   return text + "}\n";
 }
 
@@ -192,12 +197,14 @@ VelocityParameters velocityParametersOf(const VehicleScenario& vehicle) {
   for (std::size_t i = 0; i < vehicle.engines.size(); ++i) {
     if (!vehicle.has_engine[i]) continue;
     plant.actuators.push_back(plantEngineOf(i, vehicle));
+    parameters.commands.push_back(vehicle.engines[i].command);
     lag = std::max(lag, vehicle.engines[i].time_constant);
   }
   for (const ActuatorScenario& actuator : vehicle.actuators) {
     const auto known = plantActuatorOf(actuator, vehicle);
     if (!known) continue;
     plant.actuators.push_back(*known);
+    parameters.commands.push_back(actuator.motion.command);
     lag = std::max(lag, actuator.motion.time_constant);
   }
   if (plant.actuators.empty()) {
@@ -218,7 +225,9 @@ std::string velocityYaml(const VelocityParameters& parameters, const std::string
       "quadratic_drag: {}\nactuators:\n",
       origin, yamlNumber(plant.mass), yamlNumber(plant.yaw_inertia), yamlNumber(plant.center_x),
       yamlNumber(plant.center_y), yamlVector(plant.linear_drag), yamlVector(plant.quadratic_drag));
-  for (const PlantActuator& actuator : plant.actuators) yaml += plantActuatorText(actuator);
+  for (std::size_t i = 0; i < plant.actuators.size(); ++i) {
+    yaml += plantActuatorText(plant.actuators[i], parameters.commands[i]);
+  }
   return yaml + fmt::format("response_time: {}\nproportional: {}\nintegral: {}\n",
                             yamlVector(parameters.gains.response_time),
                             yamlVector(parameters.gains.proportional),
@@ -238,13 +247,17 @@ VelocityParameters parseVelocityParameters(const ConfigReader& reader) {
   plant.linear_drag = reader.vectorOr(Vector3::Zero(), "linear_drag", kNotNegative);
   plant.quadratic_drag = reader.vectorOr(Vector3::Zero(), "quadratic_drag", kNotNegative);
   const ConfigReader actuators = reader.map("actuators");
+  const auto add = [&](const std::string& name, const ConfigReader& actuator) {
+    plant.actuators.push_back(parsePlantActuator(name, actuator));
+    const bool has_thrust = plant.actuators.back().kind == PlantActuator::Kind::kThrust;
+    parameters.commands.push_back(parseCommandMap(actuator, kLevelWord, has_thrust));
+  };
   for (const char* name : kEngineNames) {
-    if (!actuators.has(name)) continue;
-    plant.actuators.push_back(parsePlantActuator(name, actuators.map(name)));
+    if (actuators.has(name)) add(name, actuators.map(name));
   }
   for (const auto& [name, actuator] : actuators.maps()) {
     if (std::find(kEngineNames.begin(), kEngineNames.end(), name) != kEngineNames.end()) continue;
-    plant.actuators.push_back(parsePlantActuator(name, actuator));
+    add(name, actuator);
   }
   if (plant.actuators.empty() || plant.actuators.size() > kMostActuators) {
     reader.fail("actuators", fmt::format("must be 1 to {}", kMostActuators));

@@ -128,6 +128,14 @@ std::string actuatorName(const VehicleScenario& vehicle, std::size_t id) {
   return id < kFirstActuator ? kEngineNames[id] : vehicle.actuators[id - kFirstActuator].name;
 }
 
+std::optional<std::size_t> actuatorIdOf(const VehicleScenario& vehicle, const std::string& name) {
+  for (std::size_t id = 0; id < kFirstActuator + vehicle.actuators.size(); ++id) {
+    const bool is_there = id >= kFirstActuator || vehicle.has_engine[id];
+    if (is_there && actuatorName(vehicle, id) == name) return id;
+  }
+  return std::nullopt;
+}
+
 EngineStates initialActuators(const VehicleScenario& vehicle) {
   EngineStates states;
   for (const ActuatorScenario& actuator : vehicle.actuators) {
@@ -147,18 +155,25 @@ HovercraftModel modelOf(const Scenario& scenario, const VehicleScenario& vehicle
           vehicle.drag,
           body.mass * scenario.gravity,
           groundForcesOf(scenario, vehicle),
-          forcesOf(vehicle)};
+          forcesOf(vehicle),
+          rotorsOf(vehicle)};
 }
 
 BodyState initialState(const Scenario& scenario, const VehicleScenario& vehicle,
                        const Mobility& mobility) {
   const FloatingPointEnvironment environment;
   const Twist twist = {vehicle.initial_v_WB, vehicle.initial_w_WB};
+  const std::vector<Rotor> rotors = rotorsOf(vehicle);
+  const auto at = [&](const auto& orientation) -> BodyState {
+    const Vector3& p_WB = vehicle.initial_p_WB;
+    if (rotors.empty()) return mobility.stateOfMotion(p_WB, orientation, twist);
+    return mobility.stateOfMotion(p_WB, orientation, twist,
+                                  rotorMomentum(rotors, levelsOf(initialActuators(vehicle))));
+  };
   if (scenario.orientation == OrientationKind::kQuaternion) {
-    return mobility.stateOfMotion(vehicle.initial_p_WB, quaternionFromRpy(vehicle.initial_rpy),
-                                  twist);
+    return at(quaternionFromRpy(vehicle.initial_rpy));
   }
-  return mobility.stateOfMotion(vehicle.initial_p_WB, rotationFromRpy(vehicle.initial_rpy), twist);
+  return at(rotationFromRpy(vehicle.initial_rpy));
 }
 
 std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {

@@ -27,6 +27,8 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
       "; "
       "between them");
   add("contacts", po::value(&request.contacts), "contacts (.csv): bounces, sticks, rests");
+  add("actuators", po::value(&request.actuators),
+      "engines and other actuators (.csv): commanded, applied, faults");
   add("cushion", po::value(&request.cushion),
       "cells of cushions (.csv): pressure, gap, flow, force");
   add("sensors", po::value(&request.sensors),

@@ -70,15 +70,6 @@ void pushBoth(const IslandLink& link, const Vector3& force, const Vector3& p_WC,
   }
 }
 
-/// Velocity of a body's point at the start of the piece, m/s; 0 for what is fixed.
-Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC, const Scene& scene,
-                    const std::vector<IslandMember>& members) {
-  if (slot == 0) return Vector3::Zero();
-  const IslandMember& member = members[at(slot - 1)];
-  const Twist twist = twistOf(member.state, scene.mobilityOf(member.index));
-  return velocityOfPoint(twist, p_WC, member.pose.p_AB);
-}
-
 using UsedPoints = std::array<bool, ContactManifold::kMaxPoints>;
 
 /// The force that was remembered nearest to a point, N on B; each is taken once.
@@ -100,16 +91,25 @@ Vector3 rememberedForce(const ContactMemory& memory, const Pose& X_WA, const Vec
 
 }  // namespace
 
-/// The bodies of the island for the solver, 0 what is fixed. @param at_end with the velocities at
-/// the end of the piece without contact.
-void Island::addBodies(bool at_end) {
+/// Velocity of a body's point at a time from the start of the step, m/s; 0 for what is fixed.
+Vector3 Island::velocityNow(std::int32_t slot, const Vector3& p_WC, double now) const {
+  if (slot == 0) return Vector3::Zero();
+  const IslandMember& member = s_.members[at(slot - 1)];
+  const Twist twist = scene_.twistAt(member.index, member.state, inputs_[at(member.index)], now);
+  return velocityOfPoint(twist, p_WC, member.pose.p_AB);
+}
+
+/// The bodies of the island for the solver, 0 what is fixed. @param now s, from the start of the
+/// step. @param at_end with the velocities at its end without contact.
+void Island::addBodies(double now, bool at_end) {
   s_.solver.clear();
   s_.solver.add(ContactBody());
   for (const IslandMember& member : s_.members) {
     const Mobility& mobility = scene_.mobilityOf(member.index);
     s_.solver.add({member.pose.p_AB, mobility.inverseMass(),
                    mobility.inverseInertia(member.pose.R_AB),
-                   twistOf(at_end ? member.end : member.state, mobility)});
+                   scene_.twistAt(member.index, at_end ? member.end : member.state,
+                                  inputs_[at(member.index)], at_end ? scene_.rules().step : now)});
   }
 }
 
@@ -135,7 +135,7 @@ void Island::strike(double now) {
     }
   }
   if (s_.impact_points.empty()) return;
-  addBodies(false);
+  addBodies(now, false);
   if (!isStruck()) return;
   s_.impact.resolve(s_.solver, s_.impact_points, slowApproach());
   for (const ImpactPoint& point : s_.impact_points) {
@@ -198,8 +198,9 @@ bool Island::addRestPoints(IslandLink& link, double left) {
   const double near = kKnownPoint * scene_.hullOf(link.memory.a).data().radius;
   for (int i = 0; i < link.manifold.count; ++i) {
     const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
-    const Vector3 v = velocityNow(link.slot_b, contact.p_WC, scene_, s_.members) -
-                      velocityNow(link.slot_a, contact.p_WC, scene_, s_.members);
+    const double now = rules.step - left;
+    const Vector3 v =
+        velocityNow(link.slot_b, contact.p_WC, now) - velocityNow(link.slot_a, contact.p_WC, now);
     const double speed = dot(link.manifold.nhat_AB_W, v);
     // What parts flies on its own; what comes fast is an impact, in its time.
     if (speed > still || (contact.gap > rules.tolerance && speed < -still)) continue;
@@ -239,7 +240,7 @@ void Island::press(double now) {
     for (IslandLink& link : s_.links) link.memory.count = 0;
     return;
   }
-  addBodies(true);
+  addBodies(now, true);
   bool any = false;
   for (IslandLink& link : s_.links) any = addRestPoints(link, left) || any;
   const auto points = static_cast<int>(s_.solver.pointCount());

@@ -42,6 +42,7 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
       for (int j = 0; j < 3; ++j) sum += inverse_inertia(i, j) * inverse_inertia(i, j);
     }
     extent.spin_per_L = std::sqrt(sum);
+    for (const Rotor& rotor : body.model.rotors) extent.rotors += rotor.most;
     extents_.push_back(extent);
   }
   for (const WorldObstacle& obstacle : obstacles_) {
@@ -66,6 +67,14 @@ int Scene::materialOf(std::int32_t index) const {
 
 Pose Scene::poseIn(const std::vector<BodyState>& states, std::int32_t index) const {
   return isFixed(index) ? fixedPose(index) : poseOf(states[static_cast<std::size_t>(index)]);
+}
+
+Twist Scene::twistAt(std::int32_t body, const BodyState& state, const StepInputs& inputs,
+                     double time) const {
+  const HovercraftModel& model = bodies_[static_cast<std::size_t>(body)].model;
+  if (model.rotors.empty()) return twistOf(state, model.mobility);
+  const ActuatorArray<double> levels = inputs.thrusts.at(time / rules_.step);
+  return twistOf(state, model.mobility, rotorMomentum(model.rotors, levels));
 }
 
 void Scene::moveAll(const std::vector<BodyState>& states, const std::vector<StepInputs>& inputs,
@@ -124,7 +133,8 @@ double Scene::travelOf(std::size_t body, const BodyState& from, const BodyState&
         const auto& b = std::get<std::decay_t<decltype(a)>>(to);
         const double bend = norm(mobility.velocity(b.momentum_W - a.momentum_W)) * h;
         const double spin =
-            extent.spin_per_L * std::max(norm(a.angular_momentum_W), norm(b.angular_momentum_W));
+            extent.spin_per_L *
+            (std::max(norm(a.angular_momentum_W), norm(b.angular_momentum_W)) + extent.rotors);
         return norm(b.p_WB - a.p_WB) + bend + spin * h * extent.radius;
       },
       from);

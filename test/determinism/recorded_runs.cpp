@@ -58,6 +58,23 @@ class Pilot {
   Tick next_ = 0;
 };
 
+/// Commands to the actuators besides the engines, and faults of all, by the tick alone. Numbers are
+/// multiples of 1/8.
+void exerciseActuators(Simulation& simulation) {
+  constexpr Tick kPeriod = 350;
+  if (simulation.tick() % kPeriod != 0) return;
+  const Tick round = simulation.tick() / kPeriod;
+  const std::size_t count = simulation.state().engines[0].size();
+  const auto id = kFirstActuator + static_cast<std::size_t>(round) % (count - kFirstActuator);
+  Command command{simulation.tick(), 0, maskOf(id), {}};
+  command.thrusts.resize(count);
+  command.thrusts[id] = static_cast<double>(round * 5 % 17 - 8) / 8.0;
+  simulation.push(command);
+  if (round % 3 != 0) return;
+  simulation.setActuator(0, static_cast<std::size_t>(round / 3) % count,
+                         static_cast<double>(round % 9) / 8.0, round % 7 == 0);
+}
+
 Scenario scenarioOf(const std::string& folder, const RecordedRun& run) {
   const std::string path = folder + "/scenarios/" + run.scenario + ".yaml";
   return loadScenario(
@@ -108,6 +125,7 @@ std::vector<std::uint64_t> fly(const std::string& folder, const RecordedRun& run
     if (checkpoint > last_tick) break;
     while (simulation.tick() < checkpoint) {
       pilot.act(simulation);
+      if (run.scenario == "rotors") exerciseActuators(simulation);
       simulation.step();
     }
     hashes.push_back(simulation.hash());

@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/AppliedCommand.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <rosbag/bag.h>
+#include <std_msgs/Float32.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
@@ -83,6 +85,39 @@ class CommandsBag : public ::testing::Test {
   hovercraft::Scenario one_ = scenarioOf(oneCraftYaml());
   hovercraft::Scenario two_ = scenarioOf(twoCraftYaml());
 };
+
+TEST_F(CommandsBag, PlaysEachActuatorFromTheTopicAndTypeThatTheScenarioSays) {
+  const hovercraft::Scenario boat = scenarioOf(
+      "step_size: 0.01\nvehicles:\n  boat:\n    mass: 1\n    inertia: {ixx: 1, iyy: 1, izz: "
+      "1}\n    engines:\n      left: {position: [0, 0, 0], direction: [1, 0, 0], min_thrust: 0, "
+      "max_thrust: 1, type: float32, topic: thrusters/left}\n    actuators:\n      tail: {kind: "
+      "rudder, position: [-1, 0, 0], area: 0.1, lift_slope: 3, topic: /helm}\n      lift: {kind: "
+      "lift_fan}\n");
+  write([](rosbag::Bag& bag) {
+    std_msgs::Float32 single;
+    single.data = 0.1F;
+    hovercraft_sim::ActuatorCommand several;
+    several.names = {"lift", "left"};
+    several.values = {0.5, 0.25};
+    bag.write("/boat/thrusters/left", after(1.0), single);
+    bag.write("/helm", after(2.0), newtons(0.3));
+    bag.write("/boat/actuator_command", after(3.0), several);
+    bag.write("/boat/actuators/lift", after(4.0), newtons(0.7));
+    bag.write("/boat/actuators/tail", after(4.0), newtons(9.0));  // no topic of it
+  });
+  const auto commands = read(boat);
+  ASSERT_EQ(commands.size(), 4U);
+  EXPECT_EQ(commands[0].engines, 2);
+  EXPECT_EQ(commands[0].thrusts[1], static_cast<double>(0.1F));
+  EXPECT_EQ(commands[0].tick, 100);
+  EXPECT_EQ(commands[1].engines, 16);
+  EXPECT_EQ(commands[1].thrusts[4], 0.3);
+  EXPECT_EQ(commands[2].engines, 2 + 8);
+  EXPECT_EQ(commands[2].thrusts[3], 0.5);
+  EXPECT_EQ(commands[3].thrusts[3], 0.7);
+  write([](rosbag::Bag& bag) { bag.write("/boat/thrusters/left", after(1.0), newtons(0.1)); });
+  EXPECT_NE(errorOf(boat).find("Float32"), std::string::npos) << errorOf(boat);
+}
 
 TEST_F(CommandsBag, PlaysAppliedCommandsAtTheirTicks) {
   write([](rosbag::Bag& bag) {

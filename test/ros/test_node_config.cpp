@@ -286,6 +286,11 @@ TEST(NodeConfig, TheTrueOdometryMayHaveAnotherTopic) {
               std::string::npos)
         << bad;
   }
+  // One on which an actuator is commanded is that of something else.
+  const std::string topic = "{truth_odom: truth/pilot, set: 'vehicles.alpha.engines.rear.topic=";
+  EXPECT_NE(complaintWith(topic + "truth/pilot'}").find("/sim: truth_odom = truth/pilot"),
+            std::string::npos);
+  EXPECT_EQ(configWith(topic + "truth/helm'}").truth_odom, "truth/pilot");
 }
 
 TEST(NodeConfig, AMapHasAHeightAndCells) {

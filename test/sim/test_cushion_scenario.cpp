@@ -131,8 +131,18 @@ TEST(CushionScenario, ShippedRc5SwingsAsItsCardSays) {
   EXPECT_NEAR(roll.dampingRatio(), 0.112, 0.001);
 }
 
+// Weight over area, and one cell of the fan's curve: 85 Pa, 0.40 mm (recorded: below 0.5 mm), heave
+// at 152.7 1/s with a damping of 0.428.
+TEST(CushionScenario, ShippedEpflHoversAsItsCardSays) {
+  const HoverReport report = hoverReports(loadScenario("config/epfl.yaml"), "").at(0);
+  ASSERT_EQ(report.hover.status, HoverStatus::kHovers);
+  const auto& heave = report.hover.modes[static_cast<std::size_t>(HoverMotion::kHeave)];
+  EXPECT_NEAR(heave.frequency(), 152.7, 0.1);
+  EXPECT_NEAR(heave.dampingRatio(), 0.428, 0.001);
+}
+
 TEST(CushionScenario, ShippedScenesSayNothing) {
-  for (const std::string name : {"rc5", "ubc_plenum", "ramp", "rough", "lift_fan"}) {
+  for (const std::string name : {"rc5", "ubc_plenum", "ramp", "rough", "lift_fan", "epfl"}) {
     SCOPED_TRACE(name);
     std::vector<std::string> notes;
     loadScenario("config/" + name + ".yaml", {}, {},

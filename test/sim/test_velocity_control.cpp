@@ -312,7 +312,8 @@ TEST(VelocityControl, WhatItCannotDriveIsNamed) {
 
 TEST(VelocityControl, ShippedParametersAreThoseOfTheScenarios) {
   for (const std::string name :
-       {"hovercraft", "mvwt", "senses", "rc5", "ubc_plenum", "vectored_fans", "lift_fan"}) {
+       {"hovercraft", "mvwt", "senses", "rc5", "ubc_plenum", "vectored_fans", "lift_fan", "epfl",
+        "tiny_whoover", "osaka", "rudder"}) {
     EXPECT_EQ(testing::contentOf("config/velocity_controller/" + name + ".yaml"),
               velocityYaml(velocityParametersOf(shippedCraft(name).vehicles[0]),
                            "config/" + name + ".yaml"))

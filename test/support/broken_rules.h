@@ -34,7 +34,9 @@ inline const std::vector<BrokenRule> kBrokenKeys = {
      "min_thrust: 0, max_thrust: ...: unknown key; known here: rear, left, right"},
     {"UnknownEngineKey", "timeout: 0.75", "time_out: 0.75",
      "vehicles.alpha.engines.rear.time_out = 0.75: unknown key; known here: position, direction, "
-     "min_thrust, max_thrust, time_constant, timeout"},
+     "min_thrust, max_thrust, time_constant, timeout, command, thrust_table, type, topic, "
+     "rotation, "
+     "rotor_inertia, rotor_speed"},
     {"UnknownInertiaKey", "iyz: 0.03", "izy: 0.03",
      "vehicles.alpha.inertia.izy = 0.03: unknown key; known here: ixx, iyy, izz, ixy, ixz, iyz"},
     {"UnknownDragKey", "{linear: [0.8", "{lineal: [0.8",

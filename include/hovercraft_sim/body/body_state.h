@@ -29,6 +29,10 @@ inline Quaternion orientationOf(const BodyState& state) {
 inline Twist twistOf(const BodyState& state, const Mobility& mobility) {
   return std::visit([&](const auto& body) { return mobility.twist(body); }, state);
 }
+/// The same of a body with rotors. @param rotors_B as Mobility::twist().
+inline Twist twistOf(const BodyState& state, const Mobility& mobility, const Vector3& rotors_B) {
+  return std::visit([&](const auto& body) { return mobility.twist(body, rotors_B); }, state);
+}
 
 /// Whether distances to the body are numbers: no coordinate beyond kFarthest, and a pose.
 bool isInReach(const BodyState& state);

@@ -119,6 +119,12 @@ class HOVERCRAFT_PUBLIC Mobility {
     return times(inverse_inertia_B_, transposeTimes(R_WB, angular_momentum_W));
   }
 
+  /// The same with rotors. @param rotors_B their angular momentum relative to the body, N m s.
+  Vector3 angularVelocityInBody(const Vector3& angular_momentum_W, const Matrix3& R_WB,
+                                const Vector3& rotors_B) const {
+    return times(inverse_inertia_B_, transposeTimes(R_WB, angular_momentum_W) - rotors_B);
+  }
+
   /// 1/m along each axis of W; 0 where the model does not move.
   Vector3 inverseMass() const { return inverse_mass_ * free_translation_; }
 
@@ -135,6 +141,14 @@ class HOVERCRAFT_PUBLIC Mobility {
             times(R_WB, angularVelocityInBody(state.angular_momentum_W, R_WB))};
   }
 
+  /// The same with rotors.
+  template <class Orientation>
+  Twist twist(const RigidBodyState<Orientation>& state, const Vector3& rotors_B) const {
+    const Matrix3 R_WB = rotationMatrix(state.orientation);
+    return {velocity(state.momentum_W),
+            times(R_WB, angularVelocityInBody(state.angular_momentum_W, R_WB, rotors_B))};
+  }
+
   /// The momenta that a body with the given velocities (in W) has, restricted to the model's
   /// motions.
   template <class Orientation>
@@ -142,6 +156,16 @@ class HOVERCRAFT_PUBLIC Mobility {
                                             const Twist& twist) const {
     const Matrix3 R_WB = rotationMatrix(orientation);
     const Vector3 L_B = times(inertia_B_, transposeTimes(R_WB, twist.w_WB));
+    const Wrench momenta = project({mass_ * twist.v_WB, times(R_WB, L_B)});
+    return {p_WB, orientation, momenta.force, momenta.torque};
+  }
+
+  /// The same of a body with rotors.
+  template <class Orientation>
+  RigidBodyState<Orientation> stateOfMotion(const Vector3& p_WB, const Orientation& orientation,
+                                            const Twist& twist, const Vector3& rotors_B) const {
+    const Matrix3 R_WB = rotationMatrix(orientation);
+    const Vector3 L_B = times(inertia_B_, transposeTimes(R_WB, twist.w_WB)) + rotors_B;
     const Wrench momenta = project({mass_ * twist.v_WB, times(R_WB, L_B)});
     return {p_WB, orientation, momenta.force, momenta.torque};
   }
@@ -162,6 +186,15 @@ template <class Orientation>
 double kineticEnergy(const RigidBodyState<Orientation>& state, const Mobility& mobility) {
   const Twist twist = mobility.twist(state);
   return 0.5 * dot(state.momentum_W, twist.v_WB) + 0.5 * dot(state.angular_momentum_W, twist.w_WB);
+}
+
+/// The same with rotors: that of the body with its rotors at rest.
+template <class Orientation>
+double kineticEnergy(const RigidBodyState<Orientation>& state, const Mobility& mobility,
+                     const Vector3& rotors_B) {
+  const Twist twist = mobility.twist(state, rotors_B);
+  const Vector3 L_W = state.angular_momentum_W - times(rotationMatrix(state.orientation), rotors_B);
+  return 0.5 * dot(state.momentum_W, twist.v_WB) + 0.5 * dot(L_W, twist.w_WB);
 }
 
 }  // namespace hovercraft

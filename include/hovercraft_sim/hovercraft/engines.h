@@ -4,10 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/hovercraft/actuator_array.h"
+#include "hovercraft_sim/hovercraft/command_map.h"
+#include "hovercraft_sim/hovercraft/rotors.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
 #include "hovercraft_sim/math/vector.h"
@@ -33,17 +36,31 @@ struct EngineParameters {
   double max_thrust = 0.0;               // N, >= 0
   double time_constant = 0.0;            // s, first-order lag of thrust; 0 = none
   std::int64_t timeout_ns = 0;           // ns since the last command; 0 = never
+  CommandMap command = {};               // from a command to the thrust that it asks for
+  RotorParameters rotor = {};            // about `direction`
 };
 
 /// What an actuator remembers from one tick to the next.
 struct EngineState {
   static constexpr Tick kNever = -1;
 
-  double commanded = 0.0;  // N, or its level, as received
+  double commanded = 0.0;  // as received; before the first command the level, N
   double thrust = 0.0;     // N, along the engine's direction, or its level; after limits and lag
   Tick command_tick = kNever;  // at which the last command took effect
+  double efficiency = 1.0;     // 0 to 1: the share that is left of what is demanded
+  bool stuck = false;          // the thrust stays as it is
+
+  bool isFaulty() const { return stuck || efficiency != 1.0; }
 };
 using EngineStates = ActuatorArray<EngineState>;
+
+/// Thrusts and levels as they are.
+inline ActuatorArray<double> levelsOf(const EngineStates& states) {
+  ActuatorArray<double> levels;
+  levels.resize(states.size());
+  for (std::size_t id = 0; id < states.size(); ++id) levels[id] = states[id].thrust;
+  return levels;
+}
 
 /// Thrusts, N, and levels of all actuators over one step: at its stages, and in between.
 struct ThrustCourse {
@@ -95,6 +112,9 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
   /// The last command lies beyond the engine's limits.
   bool isSaturated(int engine, const EngineState& state) const {
     const Rule& limits = rules_[static_cast<std::size_t>(engine)];
+    if (isMapped(limits, state)) {
+      return limits.map->exceeds(state.commanded, limits.min_thrust, limits.max_thrust);
+    }
     return state.commanded < limits.min_thrust || state.commanded > limits.max_thrust;
   }
 
@@ -119,15 +139,25 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     double full_decay = 0.0;                                // exp(-h/τ)
     Tick timeout_ticks = std::numeric_limits<Tick>::max();  // whole steps, rounded up; never
     bool lags = false;
+    std::shared_ptr<const CommandMap> map;  // null: a command is the thrust
   };
+
+  /// Before the first command what is commanded is a level.
+  static bool isMapped(const Rule& rule, const EngineState& state) {
+    return rule.map != nullptr && state.command_tick != EngineState::kNever;
+  }
 
   static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
     return state.command_tick != EngineState::kNever &&
            tick - state.command_tick >= rule.timeout_ticks;
   }
   static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
+    if (state.stuck) return state.thrust;
     if (isTimedOut(rule, state, tick)) return 0.0;
-    return std::clamp(state.commanded, rule.min_thrust, rule.max_thrust);
+    const double level = isMapped(rule, state)
+                             ? rule.map->levelOf(state.commanded, rule.min_thrust, rule.max_thrust)
+                             : state.commanded;
+    return state.efficiency * std::clamp(level, rule.min_thrust, rule.max_thrust);
   }
 
   std::int64_t step_ns_;

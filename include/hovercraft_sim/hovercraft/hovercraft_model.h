@@ -10,6 +10,7 @@
 #include "hovercraft_sim/hovercraft/environment.h"
 #include "hovercraft_sim/hovercraft/forces.h"
 #include "hovercraft_sim/hovercraft/ground_forces.h"
+#include "hovercraft_sim/hovercraft/rotors.h"
 
 namespace hovercraft {
 
@@ -23,18 +24,34 @@ struct HovercraftModel {
   Vector3 weight_W = Vector3::Zero();                           // m g, N
   std::shared_ptr<const GroundForces> ground_forces = nullptr;  // none: nothing of it is asked
   std::vector<Force> forces = {};  // of the other actuators, in a fixed order
+  std::vector<Rotor> rotors = {};  // likewise
 
-  /// Whether anything but engines, drag and weight acts on it.
-  bool hasMoreForces() const { return !forces.empty() || ground_forces != nullptr; }
+  /// Whether it is more than a body on which engines, drag and weight act.
+  bool hasMoreForces() const {
+    return !forces.empty() || ground_forces != nullptr || !rotors.empty();
+  }
 
-  /// How a body moves, in B.
+  /// w in B, rad/s. @param levels of the actuators, which turn the rotors.
+  Vector3 angularVelocityInBody(const Vector3& angular_momentum_W, const Matrix3& R_WB,
+                                const ActuatorArray<double>& levels) const {
+    if (rotors.empty()) return mobility.angularVelocityInBody(angular_momentum_W, R_WB);
+    return mobility.angularVelocityInBody(angular_momentum_W, R_WB, rotorMomentum(rotors, levels));
+  }
+  template <class Orientation>
+  Twist twist(const RigidBodyState<Orientation>& state, const ActuatorArray<double>& levels) const {
+    if (rotors.empty()) return mobility.twist(state);
+    return mobility.twist(state, rotorMomentum(rotors, levels));
+  }
+
+  /// How a body moves, in B. @param levels of its actuators.
   template <class Orientation>
   BodyMotion motionInBody(const RigidBodyState<Orientation>& state,
+                          const ActuatorArray<double>& levels,
                           const Environment& environment) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
     return {R_WB, state.p_WB, transposeTimes(R_WB, v_WB),
-            mobility.angularVelocityInBody(state.angular_momentum_W, R_WB),
+            angularVelocityInBody(state.angular_momentum_W, R_WB, levels),
             transposeTimes(R_WB, v_WB - environment.wind_W)};
   }
 
@@ -57,7 +74,9 @@ struct HovercraftModel {
                                               const FanSpeeds* fan_speeds) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
-    const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
+    const Vector3 w_WB_B = kHasMore
+                               ? angularVelocityInBody(state.angular_momentum_W, R_WB, thrusts)
+                               : mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
     const Vector3 u_B = transposeTimes(R_WB, v_WB - environment.wind_W);
     Wrench wrench_B =
         engines.wrenchInBody({thrusts[0], thrusts[1], thrusts[2]}) + drag.wrenchInBody(u_B, w_WB_B);

@@ -63,7 +63,7 @@ struct DrivenBody {
   }
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
-    return model.mobility.twist(state);
+    return model.twist(state, thrusts.end);
   }
 };
 
@@ -78,7 +78,7 @@ struct DrivenBodyOfEngines {
   }
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
-    return body.twist(state);
+    return body.model.mobility.twist(state);
   }
 };
 

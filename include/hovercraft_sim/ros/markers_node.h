@@ -9,6 +9,7 @@
 #include <visualization_msgs/Marker.h>
 
 #include <geometry_msgs/PoseStamped.h>
+#include <hovercraft_sim/ActuatorStatusArray.h>
 #include <hovercraft_sim/Contact.h>
 #include <hovercraft_sim/Cushion.h>
 #include <hovercraft_sim/EngineStatus.h>
@@ -43,6 +44,7 @@ class HOVERCRAFT_PUBLIC MarkersNode {
     hovercraft::VehicleScenario description;
     std::string world_frame;
     hovercraft_sim::EngineStatus engines;
+    hovercraft_sim::ActuatorStatusArray actuators;
     hovercraft_sim::Cushion cushion;
     FlownPath path;
     CraftMotion motion;

@@ -11,7 +11,7 @@
 namespace hovercraft_ros {
 
 /// The services that steer a run: ~pause ~resume ~step ~reset ~set_state ~apply_wrench
-/// ~set_wind ~schedule ~save ~load.
+/// ~set_wind ~set_actuator ~schedule ~save ~load.
 /// A request that cannot be met is answered with success = false and the reason; it changes
 /// nothing.
 class HOVERCRAFT_PUBLIC NodeServices {

@@ -5,6 +5,7 @@
 
 #include <hovercraft_sim/ApplyWrench.h>
 #include <hovercraft_sim/RunEvent.h>
+#include <hovercraft_sim/SetActuator.h>
 #include <hovercraft_sim/SetState.h>
 #include <hovercraft_sim/SetWind.h>
 
@@ -21,6 +22,7 @@ namespace hovercraft_ros {
 /// Kinds of events that change what `name` says; no constant of RunEvent, whose checksum is that of
 /// the recordings there are.
 constexpr std::uint8_t kSetWind = 5;
+constexpr std::uint8_t kSetActuator = 6;
 
 /// @throws std::invalid_argument with the names there are if `name` is none of them.
 HOVERCRAFT_PUBLIC std::size_t vehicleIndex(const hovercraft::Scenario& scenario,
@@ -53,9 +55,21 @@ constexpr const char* kWindRuleText =
 HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent setWindEvent(
     const hovercraft_sim::SetWind::Request& request);
 
+/// Whether an event of kind kSetActuator says faults of an actuator; of which one, applyEvent()
+/// sees.
+HOVERCRAFT_PUBLIC bool isFault(const hovercraft_sim::RunEvent& event);
+constexpr const char* kFaultRuleText =
+    "name, efficiency, stuck: must be an actuator, 0 to 1, and true or false";
+
+/// @throws std::invalid_argument if the request names no vehicle, no actuator of it, or an
+/// efficiency that is none.
+HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent setActuatorEvent(
+    const hovercraft::Scenario& scenario, const hovercraft_sim::SetActuator::Request& request);
+
 /// Changes the simulation as the event says, at its current tick.
 /// @throws std::invalid_argument if a snapshot does not fit the scenario, a motion has momenta or
-/// an energy that are not finite, a wind is none, or an event is of no known kind.
+/// an energy that are not finite, a wind is none, an actuator is not there, or an event is of no
+/// known kind.
 HOVERCRAFT_PUBLIC void applyEvent(const hovercraft_sim::RunEvent& event,
                                   hovercraft::Simulation& simulation);
 

@@ -36,11 +36,12 @@ struct SimulateRequest {
   std::vector<std::string> sets;    // KEY.PATH=VALUE: withOverrides()
   std::string commands;             // file; empty: nobody commands anything
   std::vector<std::string> pilots;  // files of manoeuvres, each for another craft
-  std::string duration;  // decimal seconds; empty: until kAfterLastCommandNs after the last
-  std::string output;    // as openOutput()
-  std::string contacts;  // CSV file of contacts; empty: none
-  std::string cushion;   // CSV file of the cells of cushions; empty: none
-  std::string sensors;   // folder of CSV files, one a sensor; empty: none
+  std::string duration;   // decimal seconds; empty: until kAfterLastCommandNs after the last
+  std::string output;     // as openOutput()
+  std::string contacts;   // CSV file of contacts; empty: none
+  std::string actuators;  // CSV file of engines and other actuators; empty: none
+  std::string cushion;    // CSV file of the cells of cushions; empty: none
+  std::string sensors;    // folder of CSV files, one a sensor; empty: none
   std::string truth_odom = kOdomTopic;  // in a bag, the topic of the true odometry
   hovercraft::Tick every = 1;           // ticks from one output to the next
   bool hold = false;                    // commands hold for ever: every time-out is 0

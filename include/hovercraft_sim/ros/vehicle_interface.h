@@ -11,7 +11,6 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
-#include <std_msgs/Float64.h>
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/live_run.h"
@@ -69,6 +68,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
       ros::NodeHandle& handle, const char* topic,
       const Message& (VehicleMessages::*message)() const, bool latched);
   void subscribe(ros::NodeHandle& handle);
+  void subscribeLevel(ros::NodeHandle& handle, std::size_t id, const char* rule);
   void subscribeActuators(ros::NodeHandle& handle);
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
   /// @param rule that a message without a command breaks.

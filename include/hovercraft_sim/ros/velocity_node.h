@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <geometry_msgs/Twist.h>
 #include <hovercraft_sim/ActuatorCommand.h>
@@ -12,6 +13,7 @@
 #include <ros/subscriber.h>
 
 #include "hovercraft_sim/control/velocity_law.h"
+#include "hovercraft_sim/hovercraft/command_map.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/warning_limiter.h"
 #include "hovercraft_sim/sim/config_node.h"
@@ -21,6 +23,7 @@ namespace hovercraft_ros {
 struct VelocityNodeConfig {
   hovercraft::VelocityPlant plant;
   hovercraft::VelocityGains gains;
+  std::vector<hovercraft::CommandMap> commands;  // of each actuator of the plant
   double timeout = 0.5;  // s of the odometry's time since the last cmd_vel; then thrusts are 0
 };
 

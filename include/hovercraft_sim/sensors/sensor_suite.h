@@ -48,6 +48,16 @@ struct SensorSurroundings {
   std::optional<RayGround> ground;
 };
 
+/// What sensors are read from. Made from the states alone where no craft has rotors.
+struct SensedBodies {
+  SensedBodies(const BodyStates& all) : states(all) {}
+  SensedBodies(const BodyStates& all, const std::vector<Vector3>& momenta)
+      : states(all), rotors_B(&momenta) {}
+
+  const BodyStates& states;
+  const std::vector<Vector3>* rotors_B = nullptr;  // N m s, of the rotors of each craft, in B
+};
+
 /// All sensors of a run. A sensor of period k is read at the ticks k, 2k, ..., after the step, and
 /// its sample is delivered at the first tick that is not before measurement + latency. Nothing here
 /// acts on a body. States are the caller's: the suite is the same for all of them. No allocation
@@ -65,10 +75,10 @@ class HOVERCRAFT_PUBLIC SensorSuite {
   bool empty() const { return sensors_.empty(); }
 
   /// States at the start of a run, of all sensors of the first craft, then of the second, ...
-  std::vector<SensorState> start(std::int64_t seed, Tick tick, const BodyStates& bodies) const;
+  std::vector<SensorState> start(std::int64_t seed, Tick tick, const SensedBodies& bodies) const;
 
   /// Reads every sensor that is due at this tick.
-  void sample(std::int64_t seed, Tick tick, const BodyStates& bodies,
+  void sample(std::int64_t seed, Tick tick, const SensedBodies& bodies,
               std::vector<SensorState>& states);
 
   /// Hands on and forgets what is due at this tick, in the order of the states. @param sink may be
@@ -76,7 +86,7 @@ class HOVERCRAFT_PUBLIC SensorSuite {
   void deliver(Tick tick, std::vector<SensorState>& states, const SampleSink& sink) const;
 
   /// The craft was put elsewhere: that is no acceleration.
-  void relocate(std::size_t vehicle, std::int64_t seed, Tick tick, const BodyStates& bodies,
+  void relocate(std::size_t vehicle, std::int64_t seed, Tick tick, const SensedBodies& bodies,
                 std::vector<SensorState>& states) const;
 
   /// The next tick after `tick` at which a sample may be delivered.
@@ -96,7 +106,7 @@ class HOVERCRAFT_PUBLIC SensorSuite {
   struct Sensor;
 
   SensedInstant instantOf(std::size_t vehicle, std::int64_t seed, Tick tick,
-                          const BodyStates& bodies) const;
+                          const SensedBodies& bodies) const;
 
   std::vector<SensorCarrier> carriers_;
   std::unique_ptr<SensorSurroundings> surroundings_;  // models point to it

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hovercraft_sim/hovercraft/forces.h"
+#include "hovercraft_sim/hovercraft/rotors.h"
 #include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft {
@@ -10,6 +11,9 @@ namespace hovercraft {
 /// The forces of a craft's actuators besides its engines, in the order of their ids. A lift fan has
 /// none of its own.
 std::vector<Force> forcesOf(const VehicleScenario& vehicle);
+
+/// The rotors of its engines and other actuators, in the order of their ids.
+std::vector<Rotor> rotorsOf(const VehicleScenario& vehicle);
 
 /// A fan of a cushion and the actuator that turns it: its speed is the actuator's level.
 struct FanDrive {

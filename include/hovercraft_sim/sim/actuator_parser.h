@@ -15,6 +15,10 @@ void parseEngines(const ConfigReader& craft, VehicleScenario& vehicle);
 /// `actuators` of a craft, by name. @throws std::invalid_argument that names key, value and rule.
 std::vector<ActuatorScenario> parseActuators(const ConfigReader& reader);
 
+/// The text of `engines` for toYaml(), every key with its value; empty if there are none, but other
+/// actuators.
+std::string enginesYaml(const VehicleScenario& vehicle);
+
 /// The text of `actuators` for toYaml(), every key with its value; empty if there are none.
 std::string actuatorsYaml(const VehicleScenario& vehicle);
 

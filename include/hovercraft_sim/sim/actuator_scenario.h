@@ -10,19 +10,26 @@ namespace hovercraft {
 
 enum class ActuatorKind { kFan, kPropeller, kLiftFan, kRudder };
 
+/// On which topic an engine or another actuator is commanded by itself, and as what.
+struct CommandTopic {
+  std::string name;         // relative to the craft's namespace, or absolute; empty: by its name
+  bool is_float32 = false;  // std_msgs/Float32, else Float64
+};
+
 /// An actuator besides the three engines. Its level is the thrust at rest in N of a fan, the speed
 /// in 1/s of a propeller, the speed as a share of the nominal one of a lift fan, the angle in rad
-/// of a rudder. `motion` has limits, lag and time-out of the level; place and direction are those
-/// of positive thrust, of a rudder the direction of its fan's thrust.
+/// of a rudder. `motion` has limits, lag, time-out, rotor and commands of the level; place and
+/// direction are those of positive thrust, of a rudder the direction of its fan's thrust, of a lift
+/// fan that of its axis.
 struct ActuatorScenario {
   std::string name;
   ActuatorKind kind = ActuatorKind::kFan;
   EngineParameters motion;
+  CommandTopic topic;
   double initial = 0.0;     // level, until the first command
   double free_speed = 0.0;  // m/s, of a fan: at which its thrust is 0; 0: it does not fall
   double air_density = kStandardAirDensity;  // kg/m³
   double diameter = 0.0;  // m, of a propeller; of a rudder that of its fan's disc
-  double turn = 1.0;      // of a propeller: 1 or -1, right- or left-handed about its thrust
   Vector3 thrust_coefficients = Vector3::Zero();  // of a propeller: k0, k1, k2
   Vector3 torque_coefficients = Vector3::Zero();  // q0, q1, q2
   std::string fan;                                // of a rudder: in whose slipstream; empty: none

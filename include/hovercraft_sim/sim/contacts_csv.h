@@ -5,7 +5,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/output_file.h"
-#include "hovercraft_sim/sim/run.h"
+#include "hovercraft_sim/sim/relay_sink.h"
 
 namespace hovercraft {
 
@@ -15,23 +15,16 @@ extern HOVERCRAFT_PUBLIC const char* const kContactKindNames[3];
 /// Hands everything on to another sink, and writes the contacts as CSV with the header
 /// `time,kind,a,b,x,y,z,nx,ny,nz,jx,jy,jz`: s, bounce | stick | rest, names, point (m), normal from
 /// a to b, impulse on b (N s), all in W. Numbers as appendNumber().
-class HOVERCRAFT_PUBLIC ContactsCsvWriter : public StateSink {
+class HOVERCRAFT_PUBLIC ContactsCsvWriter : public RelaySink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
   ContactsCsvWriter(const std::string& path, std::unique_ptr<StateSink> next);
 
-  void state(const Simulation& simulation) override { next_->state(simulation); }
-  void applied(const Command& command) override { next_->applied(command); }
   void contact(const ContactEvent& event) override;
-  void sample(const SensorSample& sample) override { next_->sample(sample); }
-  void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
-    next_->flown(manoeuvre, vehicle, tick);
-  }
   void close() override;
 
  private:
   OutputFile file_;
-  std::unique_ptr<StateSink> next_;
 };
 
 }  // namespace hovercraft

@@ -57,6 +57,8 @@ class HOVERCRAFT_PUBLIC CraftPilot {
   Tick lastTick() const;
 
  private:
+  double commandOf(std::size_t id, double level) const;
+
   PilotFile file_;
   std::int64_t step_ns_;
   Pilot pilot_;

@@ -6,7 +6,7 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/output_file.h"
-#include "hovercraft_sim/sim/run.h"
+#include "hovercraft_sim/sim/relay_sink.h"
 
 namespace hovercraft {
 
@@ -14,7 +14,7 @@ namespace hovercraft {
 /// `time,vehicle,cell,pressure,gap,flow,force,fan_speed,power`: s, name, number from 0 in the order
 /// of the scenario, Pa, m, m³/s, N, of its fan a share of the nominal speed, W into the air of this
 /// cell. Times are exact; numbers as appendNumber().
-class HOVERCRAFT_PUBLIC CushionCsvWriter : public StateSink {
+class HOVERCRAFT_PUBLIC CushionCsvWriter : public RelaySink {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing, or no vehicle has a
   /// cushion.
@@ -22,17 +22,10 @@ class HOVERCRAFT_PUBLIC CushionCsvWriter : public StateSink {
                    std::unique_ptr<StateSink> next);
 
   void state(const Simulation& simulation) override;
-  void applied(const Command& command) override { next_->applied(command); }
-  void contact(const ContactEvent& event) override { next_->contact(event); }
-  void sample(const SensorSample& sample) override { next_->sample(sample); }
-  void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
-    next_->flown(manoeuvre, vehicle, tick);
-  }
   void close() override;
 
  private:
   OutputFile file_;
-  std::unique_ptr<StateSink> next_;
   std::vector<std::string> names_;  // of the vehicles
   CushionReport report_;
 };

@@ -13,10 +13,11 @@ namespace hovercraft {
 
 /// A file of manoeuvres (doc/manoeuvres.md), as it fits a scenario.
 struct PilotFile {
-  std::size_t vehicle = 0;            // index into Scenario::vehicles
-  Tick period_ticks = 1;              // from one decision to the next
-  std::vector<std::size_t> channels;  // ids of actuators, ascending, one for each of Levels
-  Levels idle;                        // levels before the first command
+  std::size_t vehicle = 0;                    // index into Scenario::vehicles
+  Tick period_ticks = 1;                      // from one decision to the next
+  std::vector<std::size_t> channels;          // ids of actuators, ascending, one for each of Levels
+  Levels idle;                                // levels before the first command
+  ActuatorArray<EngineParameters> actuators;  // of the craft, by id
   PilotPlan plan;
 };
 

@@ -87,6 +87,7 @@ struct VehicleScenario {
   MassProperties mass_properties;   // in H
   std::vector<PartScenario> parts;  // empty if mass and inertia were given
   std::array<EngineParameters, kEngineCount> engines;
+  std::array<CommandTopic, kEngineCount> engine_topics;
   std::array<bool, kEngineCount> has_engine = {true, true, true};  // else its limits are 0
   std::vector<ActuatorScenario> actuators;                         // by name; ids from 3 on
   Drag drag;

@@ -6,14 +6,14 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/sim/output_file.h"
-#include "hovercraft_sim/sim/run.h"
+#include "hovercraft_sim/sim/relay_sink.h"
 
 namespace hovercraft {
 
 /// Hands everything on to another sink, and writes the samples of each sensor as CSV into a file of
 /// its own, FOLDER/VEHICLE.SENSOR.csv: `time,delivered` (s), then the columns of sampleFields().
 /// Ranges as reportedRange(). Numbers as appendNumber().
-class HOVERCRAFT_PUBLIC SensorsCsvWriter : public StateSink {
+class HOVERCRAFT_PUBLIC SensorsCsvWriter : public RelaySink {
  public:
   /// @param folder made if it is not there. @param taken files that must stay (checkOutputs()).
   /// @throws std::invalid_argument if it, or a file in it, cannot be made, or if no craft has a
@@ -21,13 +21,7 @@ class HOVERCRAFT_PUBLIC SensorsCsvWriter : public StateSink {
   SensorsCsvWriter(const std::string& folder, const Scenario& scenario,
                    const std::vector<std::string>& taken, std::unique_ptr<StateSink> next);
 
-  void state(const Simulation& simulation) override { next_->state(simulation); }
-  void applied(const Command& command) override { next_->applied(command); }
-  void contact(const ContactEvent& event) override { next_->contact(event); }
   void sample(const SensorSample& sample) override;
-  void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
-    next_->flown(manoeuvre, vehicle, tick);
-  }
   void close() override;
 
  private:
@@ -38,7 +32,6 @@ class HOVERCRAFT_PUBLIC SensorsCsvWriter : public StateSink {
 
   std::int64_t step_ns_;
   std::vector<std::vector<Sensor>> sensors_;  // of each vehicle
-  std::unique_ptr<StateSink> next_;
 };
 
 }  // namespace hovercraft

@@ -51,6 +51,10 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// Adds a wrench from the current tick until its end tick.
   void applyWrench(const ExternalWrench& wrench);
 
+  /// Faults of an actuator from the current tick on (EngineState). @param id of an engine that the
+  /// craft has, or of another actuator. @param efficiency 0 to 1; 1: sound.
+  void setActuator(std::size_t vehicle, std::size_t id, double efficiency, bool stuck);
+
   /// Another mean wind from the current tick on; gusts go on, along and across the new one.
   /// @param wind_W m/s, finite.
   void setWind(const Vector3& wind_W);
@@ -119,7 +123,10 @@ class HOVERCRAFT_PUBLIC Simulation {
   void refreshWind();
   void blow();
   void addAir(StateHash& hash, std::size_t first, std::size_t last) const;
+  void addFaults(StateHash& hash, std::size_t first, std::size_t last) const;
   void readSensors();
+  Vector3 rotorsOf(std::size_t body) const;
+  SensedBodies sensedBodies();
   [[noreturn]] void failAsDiverged(std::size_t body) const;
   void sortRecords();
   ContactEvent eventOf(const ContactRecord& record) const;
@@ -127,8 +134,9 @@ class HOVERCRAFT_PUBLIC Simulation {
   const HovercraftModel& modelOf(std::size_t body) const {
     return world_.scene().bodies()[body].model;
   }
-  BodyState placed(const Vector3& p_WB, const Quaternion& q_WB, const Twist& twist,
-                   const Mobility& mobility) const;
+  BodyState placed(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
+                   const Twist& twist) const;
+  Motion motionOf(std::size_t body, const BodyState& state) const;
 
   Scenario scenario_;
   World world_;
@@ -140,7 +148,8 @@ class HOVERCRAFT_PUBLIC Simulation {
   SimulationState state_;
   std::vector<StepInputs> inputs_;  // of each body, in the step that is made
   std::optional<SensorSuite> sensors_;
-  StepResult result_;  // of it, until all of it is known to be sound
+  std::vector<Vector3> rotors_B_;  // for them: of the rotors of each craft, if one has some
+  StepResult result_;              // of it, until all of it is known to be sound
 };
 
 }  // namespace hovercraft

@@ -67,11 +67,13 @@ struct Motion {
 
 /// One engine as it is reported.
 struct EngineReport {
-  double commanded;  // N, as received
+  double commanded;  // N or in the unit of its commands, as received
   double applied;    // N, after limits, time-out and lag
   bool saturated;
   bool timed_out;
-  double command_age;  // s of simulated time; -1 before the first command
+  double command_age;       // s of simulated time; -1 before the first command
+  double efficiency = 1.0;  // EngineState
+  bool stuck = false;
 };
 
 /// The cushion of a craft as it is reported.

@@ -46,6 +46,13 @@ class StateHash {
       add(engine.command_tick);
     }
   }
+  /// Of a faulty actuator: vehicle, id, efficiency, whether it is stuck.
+  void addFault(std::size_t vehicle, std::size_t id, const EngineState& actuator) {
+    add(static_cast<std::uint64_t>(vehicle));
+    add(static_cast<std::uint64_t>(id));
+    add(actuator.efficiency);
+    add(static_cast<std::uint64_t>(actuator.stuck ? 1 : 0));
+  }
 
   /// Vehicle, frame (0 world, 1 body), force, torque, end tick.
   void add(const ExternalWrench& external) {

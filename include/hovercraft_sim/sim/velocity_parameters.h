@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "hovercraft_sim/control/velocity_law.h"
 #include "hovercraft_sim/math/export.h"
@@ -13,6 +14,7 @@ namespace hovercraft {
 struct VelocityParameters {
   VelocityPlant plant;
   VelocityGains gains;
+  std::vector<CommandMap> commands;  // of each actuator of the plant: what commands its level
 };
 
 /// By the masses, engines and drag of a craft of a scenario.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,10 @@ HOVERCRAFT_PUBLIC ActuatorArray<EngineParameters> parametersOf(const VehicleScen
 
 /// Its engine "rear", or the actuator by its own name.
 HOVERCRAFT_PUBLIC std::string actuatorName(const VehicleScenario& vehicle, std::size_t id);
+
+/// Of an engine that the craft has, or of another actuator; nothing of another name.
+HOVERCRAFT_PUBLIC std::optional<std::size_t> actuatorIdOf(const VehicleScenario& vehicle,
+                                                          const std::string& name);
 
 /// What they are before the first command.
 HOVERCRAFT_PUBLIC EngineStates initialActuators(const VehicleScenario& vehicle);

@@ -79,7 +79,8 @@ class Island {
   double restSpeed(const IslandLink& link) const;
   const Pose& poseOfIndex(std::int32_t index) const;
   StepMotion motionOfIndex(std::int32_t index) const;
-  void addBodies(bool at_end);
+  void addBodies(double now, bool at_end);
+  Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC, double now) const;
 
   const Scene& scene_;
   const std::vector<StepInputs>& inputs_;

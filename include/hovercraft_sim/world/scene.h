@@ -41,6 +41,9 @@ class Scene {
   const Mobility& mobilityOf(std::int32_t body) const {
     return bodies_[static_cast<std::size_t>(body)].model.mobility;
   }
+  /// Velocities of a body, with its rotors as they turn at a time from the start of the step, s.
+  Twist twistAt(std::int32_t body, const BodyState& state, const StepInputs& inputs,
+                double time) const;
   /// Of an obstacle.
   const Pose& fixedPose(std::int32_t index) const {
     return obstacles_[static_cast<std::size_t>(index) - bodies_.size()].X_WO;
@@ -81,6 +84,7 @@ class Scene {
     Vector3 half_B = Vector3::Zero();
     double radius = 0.0;      // m, from B
     double spin_per_L = 0.0;  // bound on |w| / |L|, 1/(kg m²)
+    double rotors = 0.0;      // bound on the angular momentum of its rotors, N m s
   };
 
   WorldRules rules_;
