@@ -22,10 +22,9 @@ int main(int argc, char** argv) {
     const hovercraft_ros::WebConfig config =
         hovercraft_ros::parseWebConfig(hovercraft_ros::parameterTree(parameters, name), name);
     hovercraft_ros::WebNode node(handle, config);
-    ROS_INFO("http://%s%s%s:%d/%s shows the simulation",
-             config.address.find(':') == std::string::npos ? "" : "[", config.address.c_str(),
-             config.address.find(':') == std::string::npos ? "" : "]", node.port(),
-             config.access.token.empty() ? "" : "#token=TOKEN");
+    // For a port that was chosen here.
+    own.setParam("bound_port", node.port());
+    ROS_INFO("%s shows the simulation", hovercraft_ros::urlOf(config, node.port()).c_str());
     node.run();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());

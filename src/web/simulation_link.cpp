@@ -66,6 +66,9 @@ SimulationLink::SimulationLink(const ros::NodeHandle& handle, const std::string&
       [this](const hovercraft_sim::Telemetry& message) { hearTelemetry(message); };
   telemetry_ =
       handle_.subscribe<hovercraft_sim::Telemetry>(simulation_ + "/telemetry", 2, on_telemetry);
+  const boost::function<void(const hovercraft_sim::RunEvent&)> on_event =
+      [this](const hovercraft_sim::RunEvent&) { hearEvent(); };
+  events_ = handle_.subscribe<hovercraft_sim::RunEvent>(simulation_ + "/events", 10, on_event);
   caller_ = std::thread([this] { callServices(); });
 }
 
@@ -86,9 +89,13 @@ void SimulationLink::hearScenario(const std_msgs::String& message) {
     for (const auto& craft : scene->scenario.vehicles) scene->controls.push_back(controlsOf(craft));
     scene->message = sceneMessage(scene->scenario, simulation_, message.data);
     subscribeTo(*scene);
-    const std::lock_guard<std::mutex> lock(mutex_);
-    scene_ = std::move(scene);
-    has_new_scene_ = true;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      scene_ = scene;
+      has_new_scene_ = true;
+    }
+    // Last: the first state comes at once, and once only where the run stands.
+    subscribeToStates(scene->scenario);
   } catch (const std::exception& error) {
     ROS_ERROR("%s", error.what());
   }
@@ -97,18 +104,20 @@ void SimulationLink::hearScenario(const std_msgs::String& message) {
 void SimulationLink::subscribeTo(const LiveScene& scene) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   subscribers_.clear();
-  std::vector<ros::Publisher> commands;
+  std::vector<CraftCommands> commands;
   LiveState state;
   for (std::size_t i = 0; i < scene.scenario.vehicles.size(); ++i) {
     const hovercraft::VehicleScenario& craft = scene.scenario.vehicles[i];
     ros::NodeHandle space(handle_, craft.name);
-    const boost::function<void(const hovercraft_sim::State&)> on_state =
-        [this, i](const hovercraft_sim::State& message) { hearState(i, message); };
     const boost::function<void(const hovercraft_sim::AppliedCommand&)> on_command =
         [this, i](const hovercraft_sim::AppliedCommand& message) { hearCommand(i, message); };
-    commands.push_back(space.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, 10));
-    subscribers_.push_back(space.subscribe<hovercraft_sim::State>(kStateTopic, 2, on_state,
-                                                                  ros::VoidConstPtr(), hints));
+    CraftCommands of_craft;
+    of_craft.has_engines_only = craft.actuators.empty();
+    of_craft.publisher =
+        of_craft.has_engines_only
+            ? space.advertise<hovercraft_sim::ThrustCommand>(kThrustTopic, 10)
+            : space.advertise<hovercraft_sim::ActuatorCommand>(kActuatorCommandTopic, 10);
+    commands.push_back(of_craft);
     subscribers_.push_back(space.subscribe<hovercraft_sim::AppliedCommand>(
         kCommandsTopic, 10, on_command, ros::VoidConstPtr(), hints));
     LiveBody body;
@@ -134,6 +143,27 @@ void SimulationLink::subscribeTo(const LiveScene& scene) {
   state_ = std::move(state);
   has_new_state_ = false;
   scene_.reset();  // until the new one is there
+}
+
+void SimulationLink::subscribeToStates(const hovercraft::Scenario& scenario) {
+  states_.clear();
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    const boost::function<void(const hovercraft_sim::State&)> on_state =
+        [this, i](const hovercraft_sim::State& message) { hearState(i, message); };
+    states_.push_back(handle_.subscribe<hovercraft_sim::State>(
+        scenario.vehicles[i].name + "/" + kStateTopic, 2, on_state, ros::VoidConstPtr(),
+        ros::TransportHints().tcpNoDelay()));
+  }
+}
+
+/// A run that stands publishes nothing, but it greets newcomers with its state.
+void SimulationLink::hearEvent() {
+  std::shared_ptr<const LiveScene> scene;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (pace_.is_paused) scene = scene_;
+  }
+  if (scene) subscribeToStates(scene->scenario);
 }
 
 void SimulationLink::hearState(std::size_t craft, const hovercraft_sim::State& message) {
@@ -301,13 +331,25 @@ bool SimulationLink::setPace(double factor, Answer answer) {
 }
 
 void SimulationLink::drive(std::size_t craft, const std::map<std::string, double>& levels) {
-  hovercraft_sim::ActuatorCommand command;
-  for (const auto& [name, level] : levels) {
-    command.names.push_back(name);
-    command.values.push_back(level);
-  }
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (craft < commands_.size()) commands_[craft].publish(command);
+  if (craft >= commands_.size()) return;
+  CraftCommands& commands = commands_[craft];
+  if (!commands.has_engines_only) {
+    hovercraft_sim::ActuatorCommand message;
+    for (const auto& [name, level] : levels) {
+      message.names.push_back(name);
+      message.values.push_back(level);
+    }
+    commands.publisher.publish(message);
+    return;
+  }
+  // One message of it commands all engines.
+  for (const auto& [name, level] : levels) {
+    if (name == hovercraft::kEngineNames[0]) commands.thrusts.rear = level;
+    if (name == hovercraft::kEngineNames[1]) commands.thrusts.left = level;
+    if (name == hovercraft::kEngineNames[2]) commands.thrusts.right = level;
+  }
+  commands.publisher.publish(commands.thrusts);
 }
 
 }  // namespace hovercraft_ros

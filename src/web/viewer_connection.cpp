@@ -1,5 +1,6 @@
 #include "hovercraft_sim/web/viewer_connection.h"
 
+#include <boost/asio/post.hpp>
 #include <boost/asio/socket_base.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/error.hpp>
@@ -70,22 +71,26 @@ void ViewerConnection::onRead(const beast::error_code& error) {
     end();
     return;
   }
+  // After a refusal nothing is read: Beast's close does that, and a read beside it that fails
+  // waits for the close, as the close waits for it.
   if (!isWithinRate()) {
     refuse(websocket::close_code::policy_error, "too many messages");
-  } else if (!stream_.got_text()) {
-    refuse(websocket::close_code::unknown_data, "text only");
-  } else {
-    const std::string text = beast::buffers_to_string(buffer_.data());
-    buffer_.consume(buffer_.size());
-    server_.hear(id_, text);
+    return;
   }
-  // Also after a refusal: the answer to the close is read.
+  if (!stream_.got_text()) {
+    refuse(websocket::close_code::unknown_data, "text only");
+    return;
+  }
+  const std::string text = beast::buffers_to_string(buffer_.data());
+  buffer_.consume(buffer_.size());
+  server_.hear(id_, text);
   read();
 }
 
 void ViewerConnection::refuse(websocket::close_code code, const char* reason) {
   if (is_closing_) return;
   is_closing_ = true;
+  closing_since_ns_ = steadyNow();
   stream_.async_close({code, reason},
                       [self = shared_from_this()](const beast::error_code&) { self->end(); });
 }
@@ -134,14 +139,17 @@ void ViewerConnection::onWritten(const beast::error_code& error) {
 }
 
 bool ViewerConnection::isStalled(std::int64_t now_ns) const {
-  return writing_ && now_ns - write_began_ns_ > WebServer::kStallNs;
+  const bool is_stuck = writing_ && now_ns - write_began_ns_ > WebServer::kStallNs;
+  return is_stuck || (is_closing_ && now_ns - closing_since_ns_ > WebServer::kStallNs);
 }
 
 void ViewerConnection::drop() {
   is_closing_ = true;
+  closing_since_ns_ = steadyNow();
   waiting_.clear();
   state_.reset();
   beast::get_lowest_layer(stream_).close();  // what is being read or written ends with an error
+  boost::asio::post(stream_.get_executor(), [self = shared_from_this()] { self->end(); });
 }
 
 void ViewerConnection::end() {

@@ -2,6 +2,7 @@
 
 #include <boost/asio/ip/address.hpp>
 #include <sstream>
+#include <stdexcept>
 
 #include "hovercraft_sim/sim/config_reader.h"
 
@@ -44,7 +45,8 @@ const hovercraft::NumberRule kRateRule = {
 
 WebConfig parseWebConfig(const hovercraft::ConfigNode& parameters, const std::string& node_name) {
   const hovercraft::ConfigReader reader(parameters, node_name);
-  reader.allowOnly({"address", "port", "token", "hosts", "rate", "viewers", "simulation"});
+  reader.allowOnly(
+      {"address", "port", "token", "hosts", "rate", "viewers", "simulation", "bound_port"});
   WebConfig config;
   if (reader.has("address")) config.address = reader.text("address");
   boost::system::error_code error;
@@ -69,6 +71,12 @@ WebConfig parseWebConfig(const hovercraft::ConfigNode& parameters, const std::st
   config.viewers = wholeNumberIn(config.viewers, reader, "viewers", 1, WebConfig::kMostViewers);
   if (reader.has("simulation")) config.simulation = reader.text("simulation");
   return config;
+}
+
+std::string urlOf(const WebConfig& config, std::uint16_t port) {
+  const bool is_v6 = config.address.find(':') != std::string::npos;
+  return "http://" + (is_v6 ? "[" + config.address + "]" : config.address) + ":" +
+         std::to_string(port) + (config.access.token.empty() ? "/" : "/#token=TOKEN");
 }
 
 }  // namespace hovercraft_ros

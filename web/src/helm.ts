@@ -9,16 +9,16 @@ export interface Wish {
 export const NOTHING: Wish = { ahead: 0, turn: 0 };
 
 const DEAD_ZONE = 0.12; // of a stick that is let go
-const KEYS: Record<string, Wish> = {
-  w: { ahead: 1, turn: 0 },
-  ArrowUp: { ahead: 1, turn: 0 },
-  s: { ahead: -1, turn: 0 },
-  ArrowDown: { ahead: -1, turn: 0 },
-  a: { ahead: 0, turn: 1 },
-  ArrowLeft: { ahead: 0, turn: 1 },
-  d: { ahead: 0, turn: -1 },
-  ArrowRight: { ahead: 0, turn: -1 },
-};
+const KEYS: ReadonlyMap<string, Wish> = new Map([
+  ['w', { ahead: 1, turn: 0 }],
+  ['ArrowUp', { ahead: 1, turn: 0 }],
+  ['s', { ahead: -1, turn: 0 }],
+  ['ArrowDown', { ahead: -1, turn: 0 }],
+  ['a', { ahead: 0, turn: 1 }],
+  ['ArrowLeft', { ahead: 0, turn: 1 }],
+  ['d', { ahead: 0, turn: -1 }],
+  ['ArrowRight', { ahead: 0, turn: -1 }],
+]);
 
 function bounded(value: number): number {
   return Math.min(1, Math.max(-1, value));
@@ -27,7 +27,7 @@ function bounded(value: number): number {
 /** The name under which a key is known here; nothing for one that does not drive. */
 export function drivingKey(key: string): string | undefined {
   const name = key.length === 1 ? key.toLowerCase() : key;
-  return name in KEYS ? name : undefined;
+  return KEYS.has(name) ? name : undefined;
 }
 
 /** What the keys ask for that are down. */
@@ -35,8 +35,8 @@ export function wishOfKeys(keys: ReadonlySet<string>): Wish {
   let ahead = 0;
   let turn = 0;
   for (const key of keys) {
-    ahead += KEYS[key]?.ahead ?? 0;
-    turn += KEYS[key]?.turn ?? 0;
+    ahead += KEYS.get(key)?.ahead ?? 0;
+    turn += KEYS.get(key)?.turn ?? 0;
   }
   return { ahead: bounded(ahead), turn: bounded(turn) };
 }

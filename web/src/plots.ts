@@ -37,7 +37,7 @@ function valueText(value: number, greatest: number): string {
   return numberText(Math.abs(value) < 2e-5 * greatest ? 0 : value);
 }
 
-function seriesOf(table: Table, theme: Theme): uPlot.Series[] {
+function seriesOf(table: Table, theme: Theme, isLive: boolean): uPlot.Series[] {
   const colours = coloursOf(table);
   const hasOther = table.curves.some(({ isOther }) => isOther);
   const sizes = table.curves.map(({ values }) => greatestOf(values));
@@ -46,7 +46,7 @@ function seriesOf(table: Table, theme: Theme): uPlot.Series[] {
     stroke: seriesColour(theme, colours[i] ?? 0),
     width: demand ? 1 : isOther ? 1.25 : 1.75,
     spanGaps: hasOther,
-    points: { show: table.times.length < 30 },
+    points: { show: !isLive && table.times.length < 30 },
     ...(demand ? { paths: stepsOf } : {}),
     value: (_: uPlot, value: number | null) => (value === null ? '–' : valueText(value, sizes[i] ?? 0)),
   }));
@@ -163,7 +163,7 @@ class Plot {
         { ...axis, size: 26 },
         { ...axis, size: 52, values: (_, ticks) => ticks.map((tick) => String(tick).replace('-', '\u2212')) },
       ],
-      series: [{ label: 't', value: (_: uPlot, value: number | null) => (value === null ? '–' : timeText(value)) }, ...seriesOf(table, theme)],
+      series: [{ label: 't', value: (_: uPlot, value: number | null) => (value === null ? '–' : timeText(value)) }, ...seriesOf(table, theme, board.isLive)],
       hooks: {
         drawClear: [(plot) => { setDashes(plot, table); }],
         draw: [(plot) => { drawBands(plot, this.request.panel, theme); }],

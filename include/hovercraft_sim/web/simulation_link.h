@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -13,8 +15,10 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/State.h>
 #include <hovercraft_sim/Telemetry.h>
+#include <hovercraft_sim/ThrustCommand.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
@@ -35,8 +39,8 @@ struct LiveScene {
 };
 
 /// What the simulation says, as it is now, and what is asked of it. Of each craft it hears `state`
-/// alone, and `commands`, which come only when somebody drives: that is what it costs the
-/// simulation, however many viewers there are.
+/// alone, and `commands` and events, which come only when somebody does something: that is what it
+/// costs the simulation, however many viewers there are.
 ///
 /// Messages are taken by ROS's threads, and read from another one. Services are called one after
 /// the other, by a thread of its own: whoever asks waits for nothing.
@@ -64,12 +68,22 @@ class HOVERCRAFT_PUBLIC SimulationLink {
   bool reset(std::optional<std::int64_t> seed, Answer answer);
   bool setPace(double factor, Answer answer);
 
-  /// Commands actuators of one craft. @param levels finite, by names that the craft has.
+  /// Commands actuators of one craft; the others keep their last commands. @param levels finite, by
+  /// names that the craft has.
   void drive(std::size_t craft, const std::map<std::string, double>& levels);
 
  private:
+  /// The node takes an ActuatorCommand only of a craft that has other actuators than engines.
+  struct CraftCommands {
+    ros::Publisher publisher;
+    bool has_engines_only = true;
+    hovercraft_sim::ThrustCommand thrusts;  // that were sent last
+  };
+
   void hearScenario(const std_msgs::String& message);
   void subscribeTo(const LiveScene& scene);
+  void subscribeToStates(const hovercraft::Scenario& scenario);
+  void hearEvent();
   void hearState(std::size_t craft, const hovercraft_sim::State& state);
   void hearCommand(std::size_t craft, const hovercraft_sim::AppliedCommand& command);
   void hearPose(std::size_t body, const geometry_msgs::PoseStamped& pose);
@@ -88,10 +102,12 @@ class HOVERCRAFT_PUBLIC SimulationLink {
   bool has_new_state_ = false;
   LivePace pace_;
   std::int64_t heard_ns_ = 0;  // of the last telemetry, steady clock
-  std::vector<ros::Publisher> commands_;
+  std::vector<CraftCommands> commands_;
 
   std::vector<ros::Subscriber> subscribers_;  // of the scenario's craft; ROS's thread alone
+  std::vector<ros::Subscriber> states_;
   ros::Subscriber scenario_;
+  ros::Subscriber events_;
   ros::Subscriber telemetry_;
 
   std::mutex asked_mutex_;

@@ -29,7 +29,7 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
   void send(const SharedText& text);
   /// Replaces a state that still waits.
   void sendState(const SharedText& text);
-  /// Whether what is being sent has not been taken for WebServer::kStallNs.
+  /// Whether what is being sent, or a close, has not been taken for WebServer::kStallNs.
   bool isStalled(std::int64_t now_ns) const;
   /// At once, without a word.
   void drop();
@@ -53,6 +53,7 @@ class ViewerConnection : public std::enable_shared_from_this<ViewerConnection> {
   SharedText state_;    // waits
   SharedText writing_;  // is being sent
   std::int64_t write_began_ns_ = 0;
+  std::int64_t closing_since_ns_ = 0;
   ViewerId id_ = 0;  // 0: not open
   bool is_closing_ = false;
 };

@@ -24,8 +24,11 @@ struct WebConfig {
 
 /// @param parameters the node's private namespace. @param node_name begins every error.
 /// @throws std::invalid_argument that names the parameter, its value and the rule: an address other
-/// than a loopback one needs a token.
+/// than a loopback one needs a token. `bound_port`, which the node itself writes, is passed over.
 HOVERCRAFT_PUBLIC WebConfig parseWebConfig(const hovercraft::ConfigNode& parameters,
                                            const std::string& node_name);
+
+/// Where a browser finds the page; the word TOKEN in the place of a token.
+HOVERCRAFT_PUBLIC std::string urlOf(const WebConfig& config, std::uint16_t port);
 
 }  // namespace hovercraft_ros
