@@ -34,6 +34,7 @@ def processor_seconds(pid):
 def read(viewer, is_over):
     while not is_over.is_set() and viewer.message() is not None:
         pass
+    viewer.close()
 
 
 class Measurement:
@@ -85,8 +86,6 @@ def main():
                 threading.Thread(target=read, args=(viewer, is_over), daemon=True).start()
             row.append(measurement.take())
             is_over.set()
-            for viewer in attached:
-                viewer.close()
             web.send_signal(signal.SIGINT)
             web.wait()
             rows.append(row)
