@@ -4,7 +4,7 @@
 function(hovercraft_front_end variable)
   set(made ${PROJECT_BINARY_DIR}/front_end.cpp)
   set(text "#include \"hovercraft_sim/report/front_end.h\"\n\nnamespace hovercraft_ros {\n")
-  foreach(part "Page;report.html" "Script;report.js")
+  foreach(part "Page;report.html" "LivePage;live.html" "Script;report.js")
     list(GET part 0 name)
     list(GET part 1 file)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/dist/${file})

@@ -19,7 +19,7 @@ import shutil
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
 DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md',
-             'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md')
+             'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md', 'doc/web.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -96,10 +96,14 @@ RULES = (
     Rule(r'rosbag record .*', beside=(SIMULATION,), until='rostopic echo -n 50 /hovercraft/state'),
     Rule(r'rosrun hovercraft_sim replay run\.bag', says='identical'),
     Rule(r'rostest .*', beside=(), says='RESULT: SUCCESS'),
-    Rule(r'scripts/check_(example|page) build_release', skip=SCRIPTS_TEST),
     # doc/craft.md, doc/rviz.md
     Rule(r'scripts/screenshot_rviz( .*)?', skip=NO_RVIZ),
+    Rule(r'scripts/check_(example|page) build_release( doc)?', skip=SCRIPTS_TEST),
     Rule(r'roslaunch hovercraft_sim sim\.launch rviz:=true', skip='it opens a window'),
+    # doc/web.md
+    Rule(r'roslaunch hovercraft_sim web\.launch( address:=.*)?', beside=(), until='rosparam get /web/bound_port'),
+    Rule(r'rosrun hovercraft_sim web_node .*', beside=(SIMULATION,), until='rosparam get /web/bound_port'),
+    Rule(r'ssh -L .*', skip='there is no other machine'),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
     Rule(r'node web/.*|cd web && .*', skip="it needs npm's network; scripts/check_page does it"),

@@ -1,5 +1,5 @@
 // Builds the front end into dist/, or into the folder that is given: report.js (one script, with style and notices in it), report.html
-// (the page around it) and THIRD_PARTY_NOTICES.txt. The same sources and lock file give the same bytes.
+// (the page around it), live.html (that of web_node) and THIRD_PARTY_NOTICES.txt. The same sources and lock file give the same bytes.
 //
 // usage: node build.mjs [FOLDER]
 import { createHash } from 'node:crypto';
@@ -46,4 +46,5 @@ const page = readFileSync(join(here, 'src', 'page.html'), 'utf8').replace('SCRIP
 mkdirSync(folder, { recursive: true });
 writeFileSync(join(folder, 'report.js'), script);
 writeFileSync(join(folder, 'report.html'), page);
+writeFileSync(join(folder, 'live.html'), readFileSync(join(here, 'src', 'live.html')));
 writeFileSync(join(folder, 'THIRD_PARTY_NOTICES.txt'), text);

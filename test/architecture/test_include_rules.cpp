@@ -61,7 +61,10 @@ const std::map<std::string, Rule>& rules() {
       {"report",
        {{"math", "geometry", "body", "cushion", "hovercraft", "sensors", "sim", "ros"},
         of_ros + Names{"zlib.h"}}},
-      {"nodes", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+      {"web",
+       {{"math", "hovercraft", "sim", "ros", "report"},
+        of_ros + Names{"boost/asio/", "boost/beast/"}}},
+      {"nodes", {{"sim", "ros", "web"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
       {"tools",
        {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };

@@ -33,6 +33,8 @@ void readLayout(const std::string& input);
 void readImage(const std::string& input);
 /// As OBJ and as STL, as a surface and as a body.
 void readMesh(const std::string& input);
+/// A message of a viewer, and the head of its request.
+void hearViewer(const std::string& input);
 
 inline const std::vector<Target>& targets() {
   static const std::vector<Target> all = {{"scenario", readScenario},
@@ -45,7 +47,8 @@ inline const std::vector<Target>& targets() {
                                           {"report_bag", reportBag},
                                           {"layout", readLayout},
                                           {"image", readImage},
-                                          {"mesh", readMesh}};
+                                          {"mesh", readMesh},
+                                          {"viewer", hearViewer}};
   return all;
 }
 

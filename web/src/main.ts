@@ -2,15 +2,16 @@ import { reportOf, type Body, type PackedReport, type Panel, type Report } from 
 import { element } from './dom';
 import { fileName } from './format';
 import { listenToKeys } from './keys';
+import { startLive } from './live';
 import { Pace } from './pace';
 import { PathView } from './path_view';
 import { PlotBoard, type PlotRequest } from './plots';
 import { Player } from './player';
-import { SceneView } from './scene';
+import type { SceneView } from './scene';
 import style from './style.css';
 import { contactsSection, differenceSection, ledgerSection, manoeuvreSection, runSection } from './tables';
-import { seriesColour, currentTheme, onThemeChange, toggleTheme } from './theme';
 import { Timeline } from './timeline';
+import { choiceOf, sceneOf, themeButton } from './views';
 import uplotStyle from 'uplot/dist/uPlot.min.css';
 
 /** The same panel of the second run. */
@@ -37,46 +38,9 @@ function headerOf(report: Report): HTMLElement {
   const [first, second] = report.runs;
   const title = [first, second].flatMap((run) => (run ? [fileName(run.source)] : [])).join('  against  ');
   document.title = `${title}: report`;
-  const theme = element('button', { type: 'button', class: 'quiet', title: 'Light or dark (l)' }, '◐');
-  theme.addEventListener('click', toggleTheme);
   const chips = (first?.facts ?? []).filter(([label]) => !label.includes('hash')).slice(0, 5).map(([label, value]) =>
     element('span', { class: 'chip' }, element('small', {}, label), value));
-  return element('header', {}, element('h1', {}, title), element('div', { class: 'chips' }, ...chips), theme);
-}
-
-/** Buttons for the bodies of a run; the plots and the camera go with the chosen one. */
-function choiceOf(bodies: readonly Body[], choose: (body: Body) => void): HTMLElement {
-  const dots: HTMLElement[] = [];
-  const buttons = bodies.map((body) => {
-    const dot = element('span', { class: 'dot' });
-    dots.push(dot);
-    const button = element('button', { type: 'button', class: 'choice', 'aria-pressed': 'false' }, dot, body.name);
-    button.addEventListener('click', () => {
-      for (const each of buttons) each.setAttribute('aria-pressed', String(each === button));
-      choose(body);
-    });
-    return button;
-  });
-  const colour = (): void => {
-    const theme = currentTheme();
-    bodies.forEach((body, i) => {
-      dots[i]?.style.setProperty('background', body.craft ? seriesColour(theme, i) : theme.body);
-    });
-  };
-  colour();
-  onThemeChange(colour);
-  buttons[0]?.setAttribute('aria-pressed', 'true');
-  return element('nav', { class: 'choices', 'aria-label': 'Bodies' }, ...buttons);
-}
-
-/** The view in three dimensions; nothing, with a word about it, where there is no WebGL. */
-function sceneOf(report: Report, player: Player): { view: SceneView | undefined; root: HTMLElement } {
-  try {
-    const view = new SceneView(report, player);
-    return { view, root: view.root };
-  } catch {
-    return { view: undefined, root: element('div', { class: 'view empty' }, 'This browser draws nothing in three dimensions (no WebGL).') };
-  }
+  return element('header', {}, element('h1', {}, title), element('div', { class: 'chips' }, ...chips), themeButton());
 }
 
 function tablesOf(report: Report, player: Player): HTMLElement {
@@ -143,6 +107,10 @@ function playOn(player: Player, view: SceneView | undefined, others: { draw: () 
 
 function start(): void {
   document.head.append(element('style', {}, uplotStyle, style));
+  if (document.body.hasAttribute('data-live')) {
+    startLive();
+    return;
+  }
   const text = document.getElementById('data')?.textContent ?? '';
   try {
     show(reportOf(JSON.parse(text) as PackedReport));

@@ -9,6 +9,8 @@ import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 const MARGIN = 34;
 const MOST_POINTS = 4000;
 const TICK_PIXELS = 9;
+const LIVE_ROOM = 0.35; // of the extent, that a live picture keeps free around what was passed
+const LIVE_SPARE = 4; // times the room that is needed: then it is drawn larger
 
 interface View {
   scale: number;
@@ -16,6 +18,13 @@ interface View {
   y: number;
   width: number;
   height: number;
+}
+
+interface Box {
+  left: number;
+  right: number;
+  bottom: number;
+  top: number;
 }
 
 interface Track {
@@ -51,9 +60,11 @@ export class PathView {
   private theme: Theme = currentTheme();
   private isStale = true;
 
+  /** @param isLive motions grow: see grow(). */
   constructor(
     private readonly report: Report,
     private readonly player: Player,
+    private readonly isLive = false,
   ) {
     this.tracks = report.runs.flatMap((run, runIndex) =>
       run.bodies.map((body, i) => ({
@@ -68,7 +79,13 @@ export class PathView {
     new ResizeObserver(() => { this.drawAll(); }).observe(this.root);
     onThemeChange(() => { this.drawAll(); });
     player.onTime(() => { this.isStale = true; });
-    this.moving.addEventListener('click', (event) => { this.seekNear(event.offsetX, event.offsetY); });
+    if (!isLive) this.moving.addEventListener('click', (event) => { this.seekNear(event.offsetX, event.offsetY); });
+  }
+
+  /** Draws the ways anew as far as they go by now. */
+  grow(): void {
+    for (const track of this.tracks) track.shown = samplesOf(track.body.motion.times.length);
+    this.drawAll();
   }
 
   /** Draws where everything is, if that has changed. */
@@ -95,7 +112,7 @@ export class PathView {
 
   /** Everything that was passed, and what of the obstacles lies around it. */
   private fit(): void {
-    const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
+    const box: Box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };
     const take = (x: number, y: number, room: number): void => {
       if (!Number.isFinite(x) || !Number.isFinite(y)) return;
       box.left = Math.min(box.left, x - room);
@@ -108,10 +125,27 @@ export class PathView {
       const [xs, ys] = body.motion.position;
       for (const i of shown) take(xs?.[i] ?? NaN, ys?.[i] ?? NaN, room);
     }
+    if (!(box.right > box.left && box.top > box.bottom)) return; // nothing was heard yet
+    if (this.isLive && this.stillFits(box)) return;
+    if (this.isLive) {
+      const room = LIVE_ROOM * Math.max(box.right - box.left, box.top - box.bottom);
+      take(box.left, box.bottom, room);
+      take(box.right, box.top, room);
+    }
     const width = this.root.clientWidth || 1;
     const height = this.root.clientHeight || 1;
     const scale = Math.min((width - 2 * MARGIN) / (box.right - box.left), (height - 2 * MARGIN) / (box.top - box.bottom));
     this.view = { scale: Math.max(scale, 1e-9), x: (box.left + box.right) / 2, y: (box.bottom + box.top) / 2, width, height };
+  }
+
+  /** Whether a live picture can stay as it is: everything is in it, and it is not far too large. */
+  private stillFits({ left, right, bottom, top }: Box): boolean {
+    const { view } = this;
+    if (view.width !== this.root.clientWidth || view.height !== this.root.clientHeight) return false;
+    const [x1, y2] = this.toScreen(left, bottom);
+    const [x2, y1] = this.toScreen(right, top);
+    const isSmall = LIVE_SPARE * (x2 - x1) < view.width && LIVE_SPARE * (y2 - y1) < view.height;
+    return x1 >= 0 && x2 <= view.width && y1 >= 0 && y2 <= view.height && !isSmall;
   }
 
   private toScreen(x: number, y: number): [number, number] {

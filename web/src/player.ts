@@ -7,8 +7,8 @@ export class Player {
   playing = false;
   speed = 1;
 
-  /** @param end of the run, s. */
-  constructor(readonly end: number) {}
+  /** @param end of the run, s; of a live one it moves. */
+  constructor(public end: number) {}
 
   /** Calls `listener` whenever another time is shown. */
   onTime(listener: (time: number) => void): void {

@@ -37,7 +37,7 @@ function valueText(value: number, greatest: number): string {
   return numberText(Math.abs(value) < 2e-5 * greatest ? 0 : value);
 }
 
-function seriesOf(table: Table, theme: Theme): uPlot.Series[] {
+function seriesOf(table: Table, theme: Theme, isLive: boolean): uPlot.Series[] {
   const colours = coloursOf(table);
   const hasOther = table.curves.some(({ isOther }) => isOther);
   const sizes = table.curves.map(({ values }) => greatestOf(values));
@@ -46,7 +46,7 @@ function seriesOf(table: Table, theme: Theme): uPlot.Series[] {
     stroke: seriesColour(theme, colours[i] ?? 0),
     width: demand ? 1 : isOther ? 1.25 : 1.75,
     spanGaps: hasOther,
-    points: { show: table.times.length < 30 },
+    points: { show: !isLive && table.times.length < 30 },
     ...(demand ? { paths: stepsOf } : {}),
     value: (_: uPlot, value: number | null) => (value === null ? '–' : valueText(value, sizes[i] ?? 0)),
   }));
@@ -157,13 +157,13 @@ class Plot {
       width: Math.max(1, this.place.clientWidth),
       height: HEIGHT,
       legend: { live: true },
-      cursor: { drag: { x: true, y: false }, points: { size: 5 }, y: false },
+      cursor: { drag: { x: !board.isLive, y: false }, points: { size: 5 }, y: false },
       scales: { x: { time: false, min: board.range[0], max: board.range[1] }, y: { range: (_, min, max) => rangeOf(min, max) } },
       axes: [
         { ...axis, size: 26 },
         { ...axis, size: 52, values: (_, ticks) => ticks.map((tick) => String(tick).replace('-', '\u2212')) },
       ],
-      series: [{ label: 't', value: (_: uPlot, value: number | null) => (value === null ? '–' : timeText(value)) }, ...seriesOf(table, theme)],
+      series: [{ label: 't', value: (_: uPlot, value: number | null) => (value === null ? '–' : timeText(value)) }, ...seriesOf(table, theme, board.isLive)],
       hooks: {
         drawClear: [(plot) => { setDashes(plot, table); }],
         draw: [(plot) => { drawBands(plot, this.request.panel, theme); }],
@@ -180,11 +180,24 @@ class Plot {
     let pressed = NaN;
     plot.over.addEventListener('mousemove', (event) => { player.hover(timeOf(event)); });
     plot.over.addEventListener('mouseleave', () => { player.hover(undefined); });
+    if (this.board.isLive) return;
     plot.over.addEventListener('mousedown', (event) => { pressed = event.clientX; });
     plot.over.addEventListener('click', (event) => {
       if (Math.abs(event.clientX - pressed) < 4) player.seek(timeOf(event));
     });
     plot.over.addEventListener('dblclick', () => { this.board.zoomOut(); });
+  }
+
+  /** Shows a panel that has grown. */
+  grow(min: number, max: number): void {
+    const { plot } = this;
+    if (!plot || !this.isInSight) return;
+    const table = tableOf(this.request.panel, undefined);
+    plot.batch(() => {
+      plot.setData([table.times, ...table.curves.map(({ values }) => values)] as unknown as uPlot.AlignedData, false);
+      plot.setScale('x', { min, max });
+    });
+    this.showTime(this.board.player.shown);
   }
 
   setRange(min: number, max: number): void {
@@ -218,7 +231,8 @@ export class PlotBoard {
     { rootMargin: '300px' },
   );
 
-  constructor(readonly player: Player) {
+  /** @param isLive panels grow, and show the last seconds: there is no zoom. */
+  constructor(readonly player: Player, readonly isLive = false) {
     this.range = [0, player.end];
     player.onTime(() => { this.isStale = true; });
     onThemeChange(() => { for (const plot of this.plots) plot.build(); });
@@ -243,6 +257,14 @@ export class PlotBoard {
     if (!this.isStale) return;
     this.isStale = false;
     for (const plot of this.plots) plot.showTime(this.player.shown);
+  }
+
+  /** Shows this range of panels that have grown. */
+  grow(min: number, max: number): void {
+    this.isZooming = true;
+    this.range = [min, max];
+    for (const plot of this.plots) plot.grow(min, max);
+    this.isZooming = false;
   }
 
   /** One plot was zoomed: all follow. */

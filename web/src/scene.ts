@@ -1,6 +1,5 @@
 import {
   AmbientLight,
-  BoxGeometry,
   BufferAttribute,
   BufferGeometry,
   Color,
@@ -26,44 +25,18 @@ import {
   WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import type { Body, Curve, Ground, Report, Shape } from './data';
+import type { Body, Panel, Report, Shape } from './data';
 import { element } from './dom';
 import { indexAt, poseAt } from './motion';
 import { cornersOf } from './outline';
 import { roundStep } from './path_view';
 import type { Player } from './player';
-import { levelShade, reliefOf, shadesOf } from './relief';
+import { geometryOf, gridGeometry, reliefMesh } from './solids';
 import { currentTheme, onThemeChange, seriesColour, type Theme } from './theme';
 
 const CONTACT_SECONDS = 0.7; // for which a contact is shown
 const MOST_TRAIL = 20000;
-
-/** The geometry of a shape, in its own frame. */
-export function geometryOf(shape: Shape): BufferGeometry {
-  const [a, b, c] = shape.size;
-  switch (shape.kind) {
-    case 'box':
-      return new BoxGeometry(a, b, c);
-    case 'cylinder': // along y in three.js
-      return new CylinderGeometry(a, a, b, 32).rotateX(Math.PI / 2);
-    case 'cone':
-      return new ConeGeometry(a, b, 32).rotateX(Math.PI / 2);
-    case 'sphere':
-      return new SphereGeometry(a, 32, 16);
-    case 'faces':
-      return facesOf(shape);
-  }
-}
-
-function facesOf({ vertices = [], faces = [] }: Shape): BufferGeometry {
-  const corners = faces.flatMap((face) =>
-    face.slice(2).flatMap((_, i) => [face[0], face[i + 1], face[i + 2]].flatMap((at) => vertices[at ?? 0] ?? [0, 0, 0])),
-  );
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(new Float32Array(corners), 3));
-  geometry.computeVertexNormals();
-  return geometry;
-}
+const LIVE_REACH = 60; // of the craft's size: how far the ground of a live run goes around it
 
 /** Whether there is no graphics hardware, so that every pixel costs the processor's time. */
 function drawsInSoftware(): boolean {
@@ -75,42 +48,12 @@ function drawsInSoftware(): boolean {
   return /swiftshader|llvmpipe|softpipe|software/i.test(renderer);
 }
 
-/** A net of lines in pieces of a cell: renderers without hardware lose a line that begins behind the camera. */
-function gridGeometry(cells: number, cell: number): BufferGeometry {
-  const points: number[] = [];
-  const half = (cells * cell) / 2;
-  for (let i = 0; i <= cells; ++i) {
-    for (let j = 0; j < cells; ++j) {
-      const [across, from, to] = [i * cell - half, j * cell - half, (j + 1) * cell - half];
-      points.push(across, from, 0, across, to, 0, from, across, 0, to, across, 0);
-    }
-  }
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(new Float32Array(points), 3));
-  return geometry;
-}
-
-function reliefMesh(ground: Ground, colour: string, lines: string): Object3D {
-  const { corners, triangles } = reliefOf(ground);
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(corners, 3));
-  geometry.setIndex(new BufferAttribute(triangles, 1));
-  const light = new Color(colour);
-  const dark = new Color(lines);
-  const colours = new Float32Array(corners.length);
-  // Twice as far from level as they are: slopes that matter to a craft are gentle.
-  shadesOf(ground).forEach((shade, i) => {
-    light.clone().lerp(dark, Math.min(1, Math.max(0, 0.3 + 4 * (levelShade - shade / 255)))).toArray(colours, 3 * i);
-  });
-  geometry.setAttribute('color', new BufferAttribute(colours, 3));
-  return new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
-}
-
 interface Thrust {
   arrow: Mesh;
   full: number;
-  times: Float64Array;
-  curve: Curve;
+  panel: Panel;
+  /** Of the curve of the engine in the panel. */
+  curve: number;
 }
 
 interface Actor {
@@ -136,11 +79,14 @@ export class SceneView {
   private readonly size: number; // m, of the greatest craft
   private followed: Actor | undefined;
   private isStale = true;
+  /** A plane that goes with the craft: of a live run nobody knows how far it will go. */
+  private roaming: { ground: Object3D; cell: number } | undefined;
 
-  /** @throws Error where there is no WebGL. */
+  /** @param isLive motions and curves grow: see grow(). @throws Error where there is no WebGL. */
   constructor(
     private readonly report: Report,
     private readonly player: Player,
+    private readonly isLive = false,
   ) {
     this.isSoftware = drawsInSoftware();
     this.renderer = new WebGLRenderer({ antialias: !this.isSoftware, powerPreference: 'high-performance' });
@@ -156,6 +102,13 @@ export class SceneView {
     new ResizeObserver(() => { this.resize(); }).observe(this.root);
     onThemeChange(() => { this.build(); });
     player.onTime(() => { this.isStale = true; });
+  }
+
+  /** Gives back what the graphics hold: the view is not drawn any more. */
+  dispose(): void {
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /** The camera goes with a body, or stands where it is. */
@@ -207,7 +160,7 @@ export class SceneView {
     const described = this.report.runs[0]?.ground;
     if (described && described.columns > 0) return reliefMesh(described, ground, lines);
     const bodies = this.report.runs.flatMap((run) => run.bodies);
-    const reach = Math.max(10 * this.size, ...bodies.flatMap(({ motion }) =>
+    const reach = Math.max((this.isLive ? LIVE_REACH : 10) * this.size, ...(this.isLive ? [] : bodies).flatMap(({ motion }) =>
       motion.position.slice(0, 2).map((column) => column.reduce((most, value) => Math.max(most, Math.abs(value)), 0))));
     const cell = roundStep(Math.max(1.2 * this.size, reach / 40));
     const cells = 2 * Math.ceil((1.6 * reach) / cell);
@@ -220,6 +173,7 @@ export class SceneView {
     made.add(plane, grid);
     made.position.z = described ? described.height : lowest - 0.01 * this.size;
     if (described) made.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...described.normal));
+    this.roaming = this.isLive && (!described || described.normal[2] === 1) ? { ground: made, cell } : undefined;
     return made;
   }
 
@@ -289,15 +243,15 @@ export class SceneView {
       fan.quaternion.copy(along);
       fan.position.set(...engine.position);
       object.add(fan);
-      const curve = panel?.curves().find((each) => each.label === engine.name && !each.demand);
-      if (!panel || !curve) continue;
+      const curve = panel?.curves().findIndex((each) => each.label === engine.name && !each.demand) ?? -1;
+      if (!panel || curve < 0) continue;
       // From 0 to 1 along y: scaled by the thrust.
       const geometry = new ConeGeometry(0.045 * this.size, 1, 16).translate(0, 0.5, 0);
       const arrow = new Mesh(geometry, new MeshLambertMaterial({ color: '#e69f00' }));
       arrow.position.set(...engine.position);
       arrow.quaternion.copy(along);
       object.add(arrow);
-      thrusts.push({ arrow, full: engine.full, times: panel.times(), curve });
+      thrusts.push({ arrow, full: engine.full, panel, curve });
     }
     return thrusts;
   }
@@ -355,8 +309,8 @@ export class SceneView {
     const { position, orientation } = poseAt(actor.body.motion, time);
     actor.object.position.set(...position);
     actor.object.quaternion.set(...orientation);
-    for (const { arrow, full, times, curve } of actor.thrusts) {
-      const share = curve.values[indexAt(times, time)] / full;
+    for (const { arrow, full, panel, curve } of actor.thrusts) {
+      const share = (panel.curves()[curve]?.values[indexAt(panel.times(), time)] ?? 0) / full;
       arrow.visible = Math.abs(share) > 0.01;
       if (arrow.visible) arrow.scale.set(1, share * 0.9 * this.size, 1);
     }
@@ -365,6 +319,22 @@ export class SceneView {
     const target = new Vector3(...position);
     this.camera.position.add(target.clone().sub(this.controls.target));
     this.controls.target.copy(target);
+    if (!this.roaming) return;
+    const { ground, cell } = this.roaming;
+    ground.position.setX(Math.round(target.x / cell) * cell).setY(Math.round(target.y / cell) * cell);
+  }
+
+  /** Draws the ways anew as far as they go by now. */
+  grow(): void {
+    for (const actor of this.actors) {
+      if (!actor.trail) continue;
+      const { line, times } = this.trailOf(actor.body, '#000000', false);
+      actor.trail.geometry.dispose();
+      actor.trail.geometry = line.geometry;
+      (line.material as LineBasicMaterial).dispose();
+      actor.trailTimes = times;
+    }
+    this.isStale = true;
   }
 
   private showContact(time: number): void {

@@ -1,0 +1,90 @@
+#include "hovercraft_sim/web/craft_controls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/vector.h"
+
+namespace hovercraft_ros {
+
+using hovercraft::ActuatorKind;
+using hovercraft::Vector3;
+
+namespace {
+
+constexpr double kPushesAhead = 0.5;  // of the direction's x
+constexpr double kHasArm = 0.05;      // of the greatest distance from the centre of mass
+
+/// What a level does in the plane: force along x, and moment about the centre of mass over force.
+struct Effect {
+  double ahead = 0.0;
+  double arm = 0.0;  // m
+};
+
+Effect effectOf(const Vector3& p_BE, const Vector3& direction) {
+  return {direction.x(), p_BE.x() * direction.y() - p_BE.y() * direction.x()};
+}
+
+const char* unitOf(ActuatorKind kind) {
+  static constexpr std::array<const char*, 4> units = {"N", "1/s", "", "rad"};
+  return units[static_cast<std::size_t>(kind)];
+}
+
+int signOf(double value) {
+  return value > 0.0 ? 1 : -1;
+}
+
+}  // namespace
+
+std::vector<CraftControl> controlsOf(const hovercraft::VehicleScenario& craft) {
+  const hovercraft::FloatingPointEnvironment environment;
+  std::vector<CraftControl> controls;
+  std::vector<Effect> effects;
+  double reach = 0.0;
+  const auto add = [&](CraftControl control, const hovercraft::EngineParameters& motion,
+                       const Vector3& direction) {
+    const Vector3 p_BE = motion.p_HE - craft.mass_properties.p_HB;
+    control.least = motion.min_thrust;
+    control.most = motion.max_thrust;
+    reach = std::max(reach, hovercraft::norm(p_BE));
+    effects.push_back(effectOf(p_BE, direction));
+    controls.push_back(std::move(control));
+  };
+  for (std::size_t i = 0; i < craft.engines.size(); ++i) {
+    if (!craft.has_engine[i]) continue;
+    CraftControl control;
+    control.name = hovercraft::kEngineNames[i];
+    control.unit = "N";
+    add(control, craft.engines[i], craft.engines[i].direction);
+  }
+  for (const hovercraft::ActuatorScenario& actuator : craft.actuators) {
+    CraftControl control;
+    control.name = actuator.name;
+    control.unit = unitOf(actuator.kind);
+    control.rest = actuator.initial;
+    const bool is_rudder = actuator.kind == ActuatorKind::kRudder;
+    control.holds = is_rudder || actuator.kind == ActuatorKind::kLiftFan;
+    const Vector3& along = actuator.motion.direction;
+    // A lift fan blows down: it neither pushes nor turns.
+    const Vector3 across = hovercraft::cross(actuator.hinge, along);
+    const Vector3 lifts = Vector3::Zero();
+    add(control, actuator.motion, is_rudder ? across : (control.holds ? lifts : along));
+  }
+  const auto hasArm = [&](const Effect& effect) { return std::abs(effect.arm) > kHasArm * reach; };
+  const auto pushes = [](const Effect& effect) { return std::abs(effect.ahead) > kPushesAhead; };
+  const bool has_pure = std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) {
+    return pushes(effect) && !hasArm(effect);
+  });
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    const Effect& effect = effects[i];
+    if (pushes(effect) && !(has_pure && hasArm(effect))) controls[i].ahead = signOf(effect.ahead);
+    if (hasArm(effect)) controls[i].turn = signOf(effect.arm);
+  }
+  return controls;
+}
+
+}  // namespace hovercraft_ros
