@@ -15,8 +15,14 @@ Vector3 velocityAt(const ContactSolver& solver, const ImpactPoint& point) {
          velocityOfPoint(A.twist, point.p_WC, A.p_WB);
 }
 
+/// m/s, of the approach that bounces.
+double bouncingSpeed(const ImpactPoint& point, double speed) {
+  return std::max(0.0, -speed - point.gain);
+}
+
 double restitutionOf(const ImpactPoint& point, double speed) {
-  return point.material.stick || -speed < point.plastic_speed ? 0.0 : point.material.restitution;
+  const bool is_slow = bouncingSpeed(point, speed) < point.plastic_speed;
+  return point.material.stick || is_slow ? 0.0 : point.material.restitution;
 }
 
 /// The largest speed of any point, m/s: what rounding is measured against.
@@ -69,7 +75,8 @@ bool ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& poin
     asked.b = point.b;
     asked.nhat_AB_W = point.nhat_AB_W;
     asked.p_WC = point.p_WC;
-    asked.target = all_plastic ? 0.0 : share * restitutionOf(point, speed) * std::max(0.0, -speed);
+    asked.target =
+        all_plastic ? 0.0 : share * restitutionOf(point, speed) * bouncingSpeed(point, speed);
     asked.friction = frictionless ? 0.0 : point.material.friction;
     asked.bilateral = point.material.stick && !frictionless;
     chosen_.push_back(i);

@@ -254,12 +254,14 @@ ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
     manifold.nhat_AB_W = times(X_WA.R_AB, A.face(face_A).normal);
     if (faceManifold({A, X_WA}, face_A, {B, X_WB}, manifold, band)) {
       addClosest(closest, manifold);
+      manifold.of_face = true;
       return manifold;
     }
   } else if (along_B >= aligned) {
     manifold.nhat_AB_W = -times(X_WB.R_AB, B.face(face_B).normal);
     if (faceManifold({B, X_WB}, face_B, {A, X_WA}, manifold, band)) {
       addClosest(closest, manifold);
+      manifold.of_face = true;
       return manifold;
     }
   } else if (edgeManifold(A, X_WA, B, X_WB, closest, manifold)) {

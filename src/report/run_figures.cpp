@@ -240,16 +240,18 @@ PlanPoints outlineOf(PlanPoints points) {
 void drawObstacles(const FigureAxes& axes, const RunData& run, Figure& figure) {
   if (!run.scenario || !run.scenario->world) return;
   for (const auto& obstacle : run.scenario->world->obstacles) {
-    PlanPoints points;
-    for (const hovercraft::Vector3& corner : hovercraft::hullPoints(obstacle.hull)) {
-      points.emplace_back(corner.x(), corner.y());
+    for (const auto& piece : hovercraft::piecesOf(obstacle)) {
+      PlanPoints points;
+      for (const hovercraft::Vector3& corner : hovercraft::hullPoints(piece)) {
+        points.emplace_back(corner.x(), corner.y());
+      }
+      FigureArea area = {{}, kObstacleColor};
+      for (const auto& [x, y] : outlineOf(std::move(points))) {
+        area.corners.push_back(axes.place(x, y));
+      }
+      area.corners = axes.clipped(std::move(area.corners));
+      if (!area.corners.empty()) figure.areas.push_back(area);
     }
-    FigureArea area = {{}, kObstacleColor};
-    for (const auto& [x, y] : outlineOf(std::move(points))) {
-      area.corners.push_back(axes.place(x, y));
-    }
-    area.corners = axes.clipped(std::move(area.corners));
-    if (!area.corners.empty()) figure.areas.push_back(area);
   }
 }
 

@@ -100,6 +100,7 @@ void RunMaker::readScenario() {
     try {
       hovercraft::ScenarioSource source;
       source.name = recorded_.path + ": " + topic;
+      source.may_be_older = true;
       run_.scenario = hovercraft::parseScenario(run_.scenario_text, source);
     } catch (const std::exception& error) {
       run_.notes.push_back(fmt::format(

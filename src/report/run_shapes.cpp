@@ -164,8 +164,12 @@ std::vector<RunObstacle> obstaclesOf(const hovercraft::Scenario& scenario) {
   std::vector<RunObstacle> obstacles;
   if (!scenario.world) return obstacles;
   for (const hovercraft::ObstacleScenario& obstacle : scenario.world->obstacles) {
-    const hovercraft::HullScenario& hull = obstacle.hull;
-    obstacles.push_back({obstacle.name, {placed(hull.shape, hull.p_HS, hull.rpy, "obstacle")}});
+    RunObstacle shown;
+    shown.name = obstacle.name;
+    for (const hovercraft::HullScenario& piece : hovercraft::piecesOf(obstacle)) {
+      shown.shapes.push_back(placed(piece.shape, piece.p_HS, piece.rpy, "obstacle"));
+    }
+    obstacles.push_back(std::move(shown));
   }
   return obstacles;
 }

@@ -129,7 +129,9 @@ class Reader {
       }
       recording_.scenario_text = messageAs<std_msgs::String>(path_, instance)->data;
       const std::string source = path_ + ": " + topic;
-      recording_.scenario = hovercraft::parseScenario(recording_.scenario_text, {source, "", {}});
+      recording_.scenario =
+          hovercraft::parseScenario(recording_.scenario_text, {source, "", {}, {}, true});
+      recording_.physics_version = hovercraft::physicsVersionOf(recording_.scenario_text, source);
       return;
     }
     throw std::invalid_argument(path_ +

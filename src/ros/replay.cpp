@@ -1,7 +1,6 @@
 #include "hovercraft_sim/ros/replay.h"
 
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
 #include <limits>
 #include <memory>
@@ -11,88 +10,18 @@
 
 #include "hovercraft_sim/ros/bag_writer.h"
 #include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/ros/state_difference.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/output_file.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace hovercraft_ros {
 namespace {
 
 using hovercraft_sim::RunEvent;
-using hovercraft_sim::State;
-
-std::uint64_t bitsOf(double number) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &number, sizeof(bits));
-  return bits;
-}
-
-/// The first of several numbers that differ in their bits.
-class FieldComparison {
- public:
-  void add(const char* field, double recorded, double replayed) {
-    if (field_ != nullptr || bitsOf(recorded) == bitsOf(replayed)) return;
-    field_ = field;
-    recorded_ = hovercraft::numberText(recorded);
-    replayed_ = hovercraft::numberText(replayed);
-  }
-  void add(const char* field, const geometry_msgs::Vector3& a, const geometry_msgs::Vector3& b) {
-    add(field, a.x, b.x);
-    add(field, a.y, b.y);
-    add(field, a.z, b.z);
-  }
-  void add(const char* field, const std::vector<double>& a, const std::vector<double>& b) {
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) add(field, a[i], b[i]);
-    if (field_ != nullptr || a.size() == b.size()) return;
-    field_ = field;
-    recorded_ = fmt::format("{} numbers", a.size());
-    replayed_ = fmt::format("{} numbers", b.size());
-  }
-  void addHash(const char* field, std::uint64_t recorded, std::uint64_t replayed) {
-    if (field_ != nullptr || recorded == replayed) return;
-    field_ = field;
-    recorded_ = fmt::format("{:016x}", recorded);
-    replayed_ = fmt::format("{:016x}", replayed);
-  }
-
-  std::optional<ReplayDifference> result(const RunTime& time, const std::string& vehicle) const {
-    if (field_ == nullptr) return std::nullopt;
-    return ReplayDifference{time, vehicle, field_, recorded_, replayed_};
-  }
-
- private:
-  const char* field_ = nullptr;
-  std::string recorded_;
-  std::string replayed_;
-};
-
-std::optional<ReplayDifference> difference(const Recording::RecordedState& recorded,
-                                           const State& replayed, const std::string& vehicle) {
-  const State& state = recorded.state;
-  FieldComparison fields;
-  fields.add("position.x", state.pose.position.x, replayed.pose.position.x);
-  fields.add("position.y", state.pose.position.y, replayed.pose.position.y);
-  fields.add("position.z", state.pose.position.z, replayed.pose.position.z);
-  fields.add("orientation.x", state.pose.orientation.x, replayed.pose.orientation.x);
-  fields.add("orientation.y", state.pose.orientation.y, replayed.pose.orientation.y);
-  fields.add("orientation.z", state.pose.orientation.z, replayed.pose.orientation.z);
-  fields.add("orientation.w", state.pose.orientation.w, replayed.pose.orientation.w);
-  fields.add("velocity", state.velocity, replayed.velocity);
-  fields.add("angular_velocity", state.angular_velocity, replayed.angular_velocity);
-  fields.add("momentum", state.momentum, replayed.momentum);
-  fields.add("angular_momentum", state.angular_momentum, replayed.angular_momentum);
-  for (std::size_t i = 0; i < state.thrust.size(); ++i) {
-    fields.add("thrust", state.thrust[i], replayed.thrust[i]);
-  }
-  fields.add("energy", state.energy, replayed.energy);
-  fields.add("actuators", state.actuators, replayed.actuators);
-  fields.add("extra", state.extra, replayed.extra);
-  fields.addHash("sensor_hash", state.sensor_hash, replayed.sensor_hash);
-  fields.addHash("hash", state.hash, replayed.hash);
-  return fields.result(recorded.time, vehicle);
-}
 
 /// One run again, tick by tick, driven by the lists of a recording.
 class Replayer {
@@ -101,6 +30,7 @@ class Replayer {
            const ReplayObserver& observer)
       : recording_(recording),
         is_changed_(hovercraft::toYaml(scenario) != hovercraft::toYaml(recording.scenario)),
+        is_older_(recording.physics_version != hovercraft::kPhysicsVersion),
         simulation_(scenario),
         observer_(observer),
         samples_(recording.samples, scenario) {
@@ -119,13 +49,8 @@ class Replayer {
       advanceTo(recorded.time);
       applyEventsOfThisTick(recorded.state.events);  // of a run that stood, states come after them
       tellObserver(recorded.time);
-      if (compares && !noteSampleDifference(samples_.difference())) {
-        messages_[recorded.vehicle].fill(simulation_, {recorded.state.header.stamp, episode_});
-        result_.difference = difference(recorded, messages_[recorded.vehicle].state(),
-                                        messages_[recorded.vehicle].name());
-        ++result_.compared_states;
-      }
-      if (result_.difference) break;
+      if (compares) compare(recorded);
+      if (result_.difference && !is_older_) break;
     }
     if (compares && !result_.difference) noteMissingSamples();
     result_.compared_samples = samples_.compared();
@@ -134,6 +59,24 @@ class Replayer {
   }
 
  private:
+  /// A recording of an older physics version parts from the run somewhere: how far is asked then.
+  void compare(const Recording::RecordedState& recorded) {
+    VehicleMessages& messages = messages_[recorded.vehicle];
+    const bool is_known = result_.difference || noteSampleDifference(samples_.difference());
+    if (is_known && !is_older_) return;
+    messages.fill(simulation_, {recorded.state.header.stamp, episode_});
+    ++result_.compared_states;
+    if (!is_known) result_.difference = difference(recorded, messages.state(), messages.name());
+    const auto& a = recorded.state.pose.position;
+    const auto& b = messages.state().pose.position;
+    const double error =
+        hovercraft::norm(hovercraft::Vector3(b.x, b.y, b.z) - hovercraft::Vector3(a.x, a.y, a.z));
+    if (!(error > result_.largest_error)) return;
+    result_.largest_error = error;
+    result_.largest_error_time = recorded.time;
+    result_.largest_error_vehicle = messages.name();
+  }
+
   /// Its stamp is that of the recording's episode.
   void take(const hovercraft::SensorSample& sample) {
     if (observer_.on_sample) observer_.on_sample(sample);
@@ -220,7 +163,7 @@ class Replayer {
       if (event.kind == RunEvent::LOAD && is_changed_) {
         loadMotionOf(event);
       } else {
-        applyEvent(event, simulation_);
+        applyEvent(event, simulation_, true);
       }
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("{}: event {} of episode {}: {}", recording_.source,
@@ -234,7 +177,7 @@ class Replayer {
   /// changed one where the snapshot has that of the recorded one.
   void loadMotionOf(const RunEvent& event) {
     hovercraft::Simulation recorded(recording_.scenario);
-    applyEvent(event, recorded);
+    applyEvent(event, recorded, true);
     hovercraft::SimulationState state = recorded.state();
     const hovercraft::Scenario& changed = simulation_.scenario();
     if (state.wind_W == recording_.scenario.wind) state.wind_W = changed.wind;
@@ -280,6 +223,7 @@ class Replayer {
 
   const Recording& recording_;
   bool is_changed_;  // the scenario is not that of the recording
+  bool is_older_;    // other equations made its states
   hovercraft::Simulation simulation_;
   const ReplayObserver& observer_;
   SampleComparison samples_;
@@ -292,7 +236,22 @@ class Replayer {
   ReplayResult result_;
 };
 
+std::string errorOf(const ReplayResult& result) {
+  if (!(result.largest_error > 0.0)) return "no position differs";
+  return fmt::format("the largest error of a position, of {}, is {:.3g} m at episode {}, tick {}",
+                     result.largest_error_vehicle, result.largest_error,
+                     result.largest_error_time.episode, result.largest_error_time.tick);
+}
+
+/// What stands before the verdict on a recording whose states other equations made.
+std::string olderText(const Recording& recording) {
+  if (recording.physics_version == hovercraft::kPhysicsVersion) return "";
+  return fmt::format("recorded by physics version {}, replayed by {}: ", recording.physics_version,
+                     hovercraft::kPhysicsVersion);
+}
+
 std::string verdictOf(const ReplayResult& result, const Recording& recording) {
+  const std::string older = olderText(recording);
   const std::string missing_states =
       recording.missing_states == 0
           ? ""
@@ -306,6 +265,13 @@ std::string verdictOf(const ReplayResult& result, const Recording& recording) {
                   result.compared_states, samples, result.hash, missing_states);
   if (result.difference) {
     const ReplayDifference& found = *result.difference;
+    if (!older.empty()) {
+      return fmt::format(
+          "{}the first difference is at episode {}, tick {}, {}: {} = {} recorded, "
+          "{} replayed; {}",
+          older, found.time.episode, found.time.tick, found.vehicle, found.field, found.recorded,
+          found.replayed, errorOf(result));
+    }
     return fmt::format("different: episode {}, tick {}, {}: {} = {} recorded, {} replayed",
                        found.time.episode, found.time.tick, found.vehicle, found.field,
                        found.recorded, found.replayed);
@@ -316,10 +282,12 @@ std::string verdictOf(const ReplayResult& result, const Recording& recording) {
       missing += fmt::format("{}{} (from tick {} on)", missing.empty() ? "" : ", ", gap.missing,
                              gap.begin.tick);
     }
-    return fmt::format("identical where it can be checked: {}; {} states cannot: the bag lacks {}",
-                       scope, result.unknown_states, missing);
+    return fmt::format(
+        "{}identical where it can be checked: {}; {} states cannot: the bag lacks "
+        "{}",
+        older, scope, result.unknown_states, missing);
   }
-  return "identical: " + scope;
+  return older + "identical: " + scope;
 }
 
 }  // namespace
@@ -339,7 +307,11 @@ int replayBag(const ReplayRequest& request, std::string& verdict) {
   const std::string source = request.bag + ": ~scenario";
   const hovercraft::Scenario scenario = hovercraft::parseScenario(
       recording.scenario_text,
-      {source, "", [](const std::string& package) { return ros::package::getPath(package); }},
+      {source,
+       "",
+       [](const std::string& package) { return ros::package::getPath(package); },
+       {},
+       true},
       {"--set", request.sets});
 
   std::unique_ptr<BagWriter> writer;
@@ -371,7 +343,7 @@ int replayBag(const ReplayRequest& request, std::string& verdict) {
     return 0;
   }
   verdict = verdictOf(result, recording);
-  if (result.difference) return 1;
+  if (result.difference) return recording.physics_version == hovercraft::kPhysicsVersion ? 1 : 2;
   return result.unknown_states == 0 ? 0 : 2;
 }
 

@@ -198,8 +198,9 @@ void setMotion(const RunEvent& event, hovercraft::Simulation& simulation) {
   simulation.setMotion(vehicle, p_WB, q_WB, twist);
 }
 
-void load(const RunEvent& event, hovercraft::Simulation& simulation) {
-  const auto state = hovercraft::parseSnapshot(event.snapshot, "snapshot", simulation.scenario());
+void load(const RunEvent& event, hovercraft::Simulation& simulation, bool may_be_older) {
+  const auto state =
+      hovercraft::parseSnapshot(event.snapshot, "snapshot", simulation.scenario(), may_be_older);
   // A live command takes effect at once, so none can stand before it that takes effect later.
   for (const hovercraft::Command& command : state.commands.waiting()) {
     require(command.tick == state.tick,
@@ -211,7 +212,7 @@ void load(const RunEvent& event, hovercraft::Simulation& simulation) {
 
 }  // namespace
 
-void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
+void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation, bool may_be_older) {
   const hovercraft::FloatingPointEnvironment environment;
   const hovercraft::Scenario& scenario = simulation.scenario();
   switch (event.kind) {
@@ -219,7 +220,7 @@ void applyEvent(const RunEvent& event, hovercraft::Simulation& simulation) {
       simulation.reset(event.seed);
       return;
     case RunEvent::LOAD:
-      load(event, simulation);
+      load(event, simulation, may_be_older);
       return;
     case RunEvent::SET_STATE:
       setMotion(event, simulation);

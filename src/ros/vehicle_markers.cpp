@@ -252,8 +252,10 @@ std::vector<Marker> obstacleMarkers(const hovercraft::Scenario& scenario,
     Marker result = marker(named, "obstacle", 0, Marker::TRIANGLE_LIST, kObstacleColor);
     result.header.frame_id = world_frame;
     setScale(result, Vector3::Ones());
-    addTriangles(hovercraft::convexHull(hovercraft::hullPoints(obstacle.hull), obstacle.name),
-                 Vector3::Zero(), result);
+    for (const hovercraft::HullScenario& piece : hovercraft::piecesOf(obstacle)) {
+      addTriangles(hovercraft::convexHull(hovercraft::hullPoints(piece), obstacle.name),
+                   Vector3::Zero(), result);
+    }
     if (obstacle.visual) {
       setVisual(result, *obstacle.visual, hovercraft::quaternionFromRpy(obstacle.hull.rpy),
                 obstacle.hull.p_HS);

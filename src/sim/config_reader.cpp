@@ -192,6 +192,25 @@ std::vector<double> ConfigReader::numbers(const char* key, std::size_t most) con
   return result;
 }
 
+std::vector<std::array<double, 2>> ConfigReader::pairs(const char* key,
+                                                       const NumberRule& rule) const {
+  const ConfigNode& list = required(key);
+  if (!list.isList()) fail(key, "must be a list of pairs of numbers: [[0, 1], [2, 3]]");
+  std::vector<std::array<double, 2>> result;
+  result.reserve(list.items().size());
+  for (std::size_t i = 0; i < list.items().size(); ++i) {
+    const ConfigNode& item = list.items()[i];
+    const std::string element = fmt::format("{}[{}]", key, i);
+    if (!item.isList() || item.items().size() != 2) {
+      throw std::invalid_argument(
+          fmt::format("{}: {}: must be two numbers", source_, pathOf(element)));
+    }
+    result.push_back(
+        {numberAt(item.items()[0], element, rule), numberAt(item.items()[1], element, rule)});
+  }
+  return result;
+}
+
 double ConfigReader::length(const char* key) const {
   number(key, kPositive);
   return number(key, kCoordinate);

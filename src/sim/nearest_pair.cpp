@@ -18,7 +18,9 @@ NearestPairFinder::NearestPairFinder(const Scenario& scenario) {
   for (const VehicleScenario& craft : scenario.vehicles) move(craft);
   for (const VehicleScenario& body : scenario.world->bodies) move(body);
   for (const ObstacleScenario& obstacle : scenario.world->obstacles) {
-    add(obstacle.name, convexHull(hullPoints(obstacle.hull), obstacle.name), Vector3::Zero());
+    for (const HullScenario& piece : piecesOf(obstacle)) {
+      add(obstacle.name, convexHull(hullPoints(piece), obstacle.name), Vector3::Zero());
+    }
   }
   pairs_.resize(moving_.size() * solids_.size());
 }

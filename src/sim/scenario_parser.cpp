@@ -202,9 +202,11 @@ VehicleScenario parseVehicle(const std::string& name, const ConfigReader& reader
 }
 
 /// A text that toYaml() wrote says by which equations its bits were computed.
-void checkPhysicsVersion(const ConfigReader& reader) {
+void checkPhysicsVersion(const ConfigReader& reader, bool may_be_older) {
   if (!reader.has("physics_version")) return;
-  if (reader.wholeNumberOr(0, "physics_version") == kPhysicsVersion) return;
+  const std::int64_t version = reader.wholeNumberOr(0, "physics_version");
+  if (version == kPhysicsVersion) return;
+  if (may_be_older && version > 0 && version < kPhysicsVersion) return;
   reader.fail("physics_version", fmt::format("must be {}, that of this build: with another one the "
                                              "same scenario gives other bits",
                                              kPhysicsVersion));
@@ -212,13 +214,18 @@ void checkPhysicsVersion(const ConfigReader& reader) {
 
 }  // namespace
 
+std::int64_t physicsVersionOf(const std::string& text, const std::string& source) {
+  const ConfigNode tree = treeOf(text, source);
+  return ConfigReader(tree, source).wholeNumberOr(1, "physics_version");
+}
+
 Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
   reader.allowOnly({"physics_version", "step_size", "integrator", "orientation", "model", "gravity",
                     "wind", "gusts", "seed", "vehicles", "world", "ground"});
   Scenario scenario;
-  checkPhysicsVersion(reader);
+  checkPhysicsVersion(reader, source.may_be_older);
   scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
       static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));

@@ -351,21 +351,23 @@ ConfigNode snapshotTree(const std::string& text, const std::string& source) {
 }
 
 /// A snapshot of format 1 says neither, and is of physics version 1.
-void checkVersions(const ConfigReader& reader) {
+void checkVersions(const ConfigReader& reader, bool may_be_older) {
   if (reader.has("format")) wholeNumber(reader, "format", kSnapshotFormat, kSnapshotFormat);
   const std::int64_t physics = reader.wholeNumberOr(1, "physics_version");
   if (physics == kPhysicsVersion) return;
+  if (may_be_older && physics > 0 && physics < kPhysicsVersion) return;
   reader.fail("physics_version", fmt::format("must be {}, that of this build: the run would go on "
                                              "with other bits",
                                              kPhysicsVersion));
 }
 
 /// Another version may have written the text with other digits or quotes.
-bool isTextOf(const Scenario& scenario, const std::string& text, const std::string& source) {
+bool isTextOf(const Scenario& scenario, const std::string& text, ScenarioSource source) {
   const std::string expected = toYaml(scenario);
   if (text == expected) return true;
   try {
-    return toYaml(parseScenario(text, {source + ": scenario", "", {}})) == expected;
+    source.name += ": scenario";
+    return toYaml(parseScenario(text, source)) == expected;
   } catch (const std::invalid_argument&) {
     return false;  // its message would quote the text
   }
@@ -374,14 +376,14 @@ bool isTextOf(const Scenario& scenario, const std::string& text, const std::stri
 }  // namespace
 
 SimulationState parseSnapshot(const std::string& text, const std::string& source,
-                              const Scenario& scenario) {
+                              const Scenario& scenario, bool may_be_older) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(snapshotTree(text, source), source, "", false);
   reader.allowOnly({"format", "physics_version", "tick", "seed", "hash", "vehicles", "wrenches",
                     "bodies", "wind", "gusts", "contacts", "sensor_hash", "sensors", "commands",
                     "scenario"});
-  checkVersions(reader);
-  if (!isTextOf(scenario, reader.text("scenario"), source)) {
+  checkVersions(reader, may_be_older);
+  if (!isTextOf(scenario, reader.text("scenario"), {source, "", {}, {}, may_be_older})) {
     throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
   }
   Simulation check(scenario);

@@ -10,6 +10,7 @@
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/sim/actuator_forces.h"
 #include "hovercraft_sim/sim/cushion_builder.h"
+#include "hovercraft_sim/sim/wall.h"
 
 namespace hovercraft {
 namespace {
@@ -100,6 +101,15 @@ std::vector<Vector3> hullPoints(const HullScenario& hull) {
   return placedPoints(std::visit(HullCorners(), hull.shape), hull.p_HS, hull.rpy);
 }
 
+std::vector<HullScenario> piecesOf(const ObstacleScenario& obstacle) {
+  if (!obstacle.wall) return {obstacle.hull};
+  std::vector<HullScenario> pieces;
+  for (PointsShape& part : straightParts(*obstacle.wall)) {
+    pieces.push_back({std::move(part), obstacle.hull.p_HS, obstacle.hull.rpy});
+  }
+  return pieces;
+}
+
 std::vector<Vector3> partPoints(const std::vector<PartScenario>& parts) {
   const FloatingPointEnvironment environment;
   std::vector<Vector3> all;
@@ -181,9 +191,12 @@ std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {
   std::vector<WorldObstacle> obstacles;
   for (const ObstacleScenario& obstacle : world.obstacles) {
     const Pose X_WO = {rotationFromRpy(obstacle.hull.rpy), obstacle.hull.p_HS};
-    const HullScenario in_place = {obstacle.hull.shape, Vector3::Zero(), Vector3::Zero()};
-    obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
-                         static_cast<int>(obstacle.material)});
+    const auto whole = static_cast<std::int32_t>(obstacles.size());
+    for (const HullScenario& piece : piecesOf(obstacle)) {
+      const HullScenario in_place = {piece.shape, Vector3::Zero(), Vector3::Zero()};
+      obstacles.push_back({obstacle.name, convexHull(hullPoints(in_place), obstacle.name), X_WO,
+                           static_cast<int>(obstacle.material), whole});
+    }
   }
   return obstacles;
 }

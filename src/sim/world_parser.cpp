@@ -9,6 +9,7 @@
 #include "hovercraft_sim/sim/mesh_parser.h"
 #include "hovercraft_sim/sim/number_text.h"
 #include "hovercraft_sim/sim/scenario_names.h"
+#include "hovercraft_sim/sim/wall.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft {
@@ -214,6 +215,12 @@ std::string hullText(const HullScenario& hull) {
                      yamlVector(hull.p_HS), yamlVector(hull.rpy));
 }
 
+std::string shapeText(const ObstacleScenario& obstacle) {
+  if (!obstacle.wall) return hullText(obstacle.hull);
+  return fmt::format("{}, position: {}, rpy: {}", wallText(*obstacle.wall),
+                     yamlVector(obstacle.hull.p_HS), yamlVector(obstacle.hull.rpy));
+}
+
 std::string surfaceText(const ContactMaterial& surface) {
   return fmt::format("restitution: {}, friction: {}, stick: {}", yamlNumber(surface.restitution),
                      yamlNumber(surface.friction), surface.stick ? "true" : "false");
@@ -237,14 +244,37 @@ void parseHullsAlone(const ConfigReader& vehicles, const ScenarioSource& source,
   }
 }
 
+ObstacleScenario parseObstacle(const std::string& name, const ConfigReader& reader,
+                               const ScenarioSource& source, const WorldScenario& world) {
+  ObstacleScenario obstacle;
+  obstacle.name = name;
+  obstacle.material = reader.choiceOr(0, "material", namesOf(world.materials));
+  obstacle.visual = parseVisual(reader, source);
+  if (!reader.has("wall")) {
+    obstacle.hull = parseHull(reader, source);
+    return obstacle;
+  }
+  for (const char* key : {"box", "cylinder", "sphere", "mesh", "points"}) {
+    if (reader.has(key)) reader.fail(key, "must not stand beside a wall");
+  }
+  obstacle.wall = parseWall(reader.map("wall"));
+  obstacle.hull.p_HS = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
+  obstacle.hull.rpy = reader.vectorOr(Vector3::Zero(), "rpy");
+  try {
+    for (const HullScenario& piece : piecesOf(obstacle)) convexHull(hullPoints(piece), "wall");
+  } catch (const std::invalid_argument& error) {
+    reader.fail("wall", error.what());
+  }
+  return obstacle;
+}
+
 void parseObstacles(const ConfigReader& obstacles, const ScenarioSource& source,
                     WorldScenario& world) {
   for (const auto& [name, obstacle] : obstacles.maps()) {
     requireName(obstacle, name);
-    obstacle.allowOnly(
-        {"box", "cylinder", "sphere", "mesh", "points", "position", "rpy", "material", "visual"});
-    world.obstacles.push_back({name, parseHull(obstacle, source), parseVisual(obstacle, source),
-                               obstacle.choiceOr(0, "material", namesOf(world.materials))});
+    obstacle.allowOnly({"box", "cylinder", "sphere", "mesh", "points", "wall", "position", "rpy",
+                        "material", "visual"});
+    world.obstacles.push_back(parseObstacle(name, obstacle, source, world));
   }
 }
 
@@ -309,7 +339,7 @@ std::string worldYaml(const Scenario& scenario) {
   if (!world.obstacles.empty()) yaml += "  obstacles:\n";
   for (const ObstacleScenario& obstacle : world.obstacles) {
     yaml += fmt::format("    {}: {{{}, material: {}{}}}\n", yamlText(obstacle.name),
-                        hullText(obstacle.hull), yamlText(world.materials[obstacle.material].name),
+                        shapeText(obstacle), yamlText(world.materials[obstacle.material].name),
                         obstacle.visual ? ", " + visualText(*obstacle.visual) : "");
   }
   return yaml;

@@ -34,6 +34,7 @@ void Island::begin(const std::vector<std::int32_t>& bodies, const std::vector<Sc
     link.memory.b = b;
     link.material = scene_.lawOf(pairs[k]);
     link.impacts = 0;
+    link.rested = link.memory.resting;
     link.slot_a = s_.slots[at(a)];
     link.slot_b = scene_.isFixed(b) ? 0 : s_.slots[at(b)];
   }
@@ -55,8 +56,12 @@ StepMotion Island::motionOfIndex(std::int32_t index) const {
 
 /// The approach that a pair may have and still not bounce, m/s.
 double Island::restSpeed(const IslandLink& link) const {
-  if (plastic_ || link.impacts >= kMaxBounces) return std::numeric_limits<double>::infinity();
-  if (link.memory.resting) return scene_.rules().rest_speed;
+  const bool is_spent = link.impacts >= kMaxBounces && link.material.restitution < 1.0;
+  if (plastic_ || is_spent) return std::numeric_limits<double>::infinity();
+  if (link.memory.resting) {
+    return std::max(scene_.rules().rest_speed,
+                    kRestGap * scene_.rules().tolerance / scene_.rules().step);
+  }
   return std::max(kStillSpeed, (1.0 - link.material.restitution) * scene_.rules().rest_speed);
 }
 
@@ -212,7 +217,9 @@ bool Island::run() {
   double now = 0.0;
   for (int event = 0; event < 2 * bound; ++event) {
     plastic_ = event >= bound;
+    now_ = now;
     look(h - now);
+    for (IslandLink& link : s_.links) link.found = link.closest.distance;
     if (repair()) look(h - now);
     strike(now);
     press(now);

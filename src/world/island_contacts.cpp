@@ -2,61 +2,16 @@
 #include <array>
 #include <limits>
 
+#include "hovercraft_sim/contact/entry_normal.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/world/island.h"
+#include "hovercraft_sim/world/island_motion.h"
 
-/// What the bodies of an island do to each other: impacts, and the forces of resting contacts.
+/// The forces of the resting contacts of an island.
 
 namespace hovercraft {
 namespace {
-
-void applyImpulse(BodyState& state, const Mobility& mobility, const Vector3& impulse,
-                  const Vector3& p_WC) {
-  std::visit(
-      [&](auto& body) {
-        const Wrench kick = mobility.project({impulse, cross(p_WC - body.p_WB, impulse)});
-        body.momentum_W += kick.force;
-        body.angular_momentum_W += kick.torque;
-      },
-      state);
-}
-
-/// What the points of one pair got in an impact.
-struct PairImpact {
-  Vector3 impulse = Vector3::Zero();  // N s, on B
-  Vector3 moment = Vector3::Zero();   // N s m: points by the size of their impulses
-  double weight = 0.0;                // N s
-  double approach = 0.0;              // m/s
-  bool bounced = false;
-};
-
-PairImpact sumOf(const IslandLink& link, const std::vector<ImpactPoint>& points) {
-  PairImpact sum;
-  const std::size_t end = link.first_point + static_cast<std::size_t>(link.point_count);
-  for (std::size_t k = link.first_point; k < end; ++k) {
-    const ImpactPoint& point = points[k];
-    const double size = norm(point.impulse);
-    if (size == 0.0) continue;
-    sum.impulse += point.impulse;
-    sum.moment += size * point.p_WC;
-    sum.weight += size;
-    sum.approach = std::max(sum.approach, point.approach);
-    sum.bounced = sum.bounced || point.bounced;
-  }
-  return sum;
-}
-
-/// Gives both bodies of a point its impulse.
-void applyToBoth(const ImpactPoint& point, const Scene& scene, std::vector<IslandMember>& members) {
-  const std::int32_t slots[2] = {point.a, point.b};
-  for (int side = 0; side < 2; ++side) {
-    if (slots[side] == 0) continue;
-    IslandMember& member = members[at(slots[side] - 1)];
-    const Vector3 impulse = (side == 0 ? -1.0 : 1.0) * point.impulse;
-    applyImpulse(member.state, scene.mobilityOf(member.index), impulse, point.p_WC);
-  }
-}
 
 /// Pushes both bodies of a pair with a force (N, on B) at a point.
 void pushBoth(const IslandLink& link, const Vector3& force, const Vector3& p_WC,
@@ -91,97 +46,61 @@ Vector3 rememberedForce(const ContactMemory& memory, const Pose& X_WA, const Vec
 
 }  // namespace
 
-/// Velocity of a body's point at a time from the start of the step, m/s; 0 for what is fixed.
-Vector3 Island::velocityNow(std::int32_t slot, const Vector3& p_WC, double now) const {
-  if (slot == 0) return Vector3::Zero();
-  const IslandMember& member = s_.members[at(slot - 1)];
-  const Twist twist = scene_.twistAt(member.index, member.state, inputs_[at(member.index)], now);
-  return velocityOfPoint(twist, p_WC, member.pose.p_AB);
+Twist Island::twistNow(const IslandMember& member) const {
+  return scene_.twistAt(member.index, member.state, inputs_[at(member.index)], now_);
 }
 
-/// The bodies of the island for the solver, 0 what is fixed. @param now s, from the start of the
-/// step. @param at_end with the velocities at its end without contact.
-void Island::addBodies(double now, bool at_end) {
+Twist Island::twistAtEnd(const IslandMember& member) const {
+  return scene_.twistAt(member.index, member.end, inputs_[at(member.index)], scene_.rules().step);
+}
+
+Vector3 Island::velocityNow(std::int32_t slot, const Vector3& p_WC) const {
+  if (slot == 0) return Vector3::Zero();
+  const IslandMember& member = s_.members[at(slot - 1)];
+  return velocityOfPoint(twistNow(member), p_WC, member.pose.p_AB);
+}
+
+Vector3 Island::velocityAtEnd(std::int32_t slot, const Vector3& p_WC) const {
+  if (slot == 0) return Vector3::Zero();
+  const IslandMember& member = s_.members[at(slot - 1)];
+  return velocityOfPoint(twistAtEnd(member), p_WC, member.pose.p_AB);
+}
+
+/// Acceleration of a body's point towards the axis about which the body turns, m/s²: what the twist
+/// at the end of a piece does not tell of the point's velocity there.
+Vector3 Island::centripetalNow(std::int32_t slot, const Vector3& p_WC) const {
+  if (slot == 0) return Vector3::Zero();
+  const IslandMember& member = s_.members[at(slot - 1)];
+  const Vector3 w = twistNow(member).w_WB;
+  return cross(w, cross(w, p_WC - member.pose.p_AB));
+}
+
+/// The normal of a pair that touches at a corner or an edge, from the motion now, or as it is at
+/// the end of the piece without contact.
+void Island::turn(IslandLink& link, bool at_end) {
+  if (link.manifold.of_face) return;
+  const auto side = [&](std::int32_t index, std::int32_t slot) -> MovingHull {
+    Twist twist{Vector3::Zero(), Vector3::Zero()};
+    if (slot != 0) {
+      const IslandMember& member = s_.members[at(slot - 1)];
+      twist = at_end ? twistAtEnd(member) : twistNow(member);
+    }
+    return {scene_.hullOf(index), poseOfIndex(index), twist};
+  };
+  turnToEntry(side(link.memory.a, link.slot_a), side(link.memory.b, link.slot_b), link.closest,
+              link.manifold);
+}
+
+/// The bodies of the island for the solver, 0 what is fixed. @param at_end with the velocities at
+/// the end of the piece without contact.
+void Island::addBodies(bool at_end) {
   s_.solver.clear();
   s_.solver.add(ContactBody());
   for (const IslandMember& member : s_.members) {
     const Mobility& mobility = scene_.mobilityOf(member.index);
     s_.solver.add({member.pose.p_AB, mobility.inverseMass(),
                    mobility.inverseInertia(member.pose.R_AB),
-                   scene_.twistAt(member.index, at_end ? member.end : member.state,
-                                  inputs_[at(member.index)], at_end ? scene_.rules().step : now)});
-  }
-}
-
-/// The impact of all points that touch now. @param now s, from the start of the step.
-void Island::strike(double now) {
-  s_.impact_points.clear();
-  for (IslandLink& link : s_.links) {
-    link.first_point = s_.impact_points.size();
-    link.point_count = 0;
-    if (!link.touching) continue;
-    for (int i = 0; i < link.manifold.count; ++i) {
-      const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
-      if (contact.gap > scene_.rules().tolerance) continue;
-      ImpactPoint point;
-      point.a = link.slot_a;
-      point.b = link.slot_b;
-      point.nhat_AB_W = link.manifold.nhat_AB_W;
-      point.p_WC = contact.p_WC;
-      point.material = link.material;
-      point.plastic_speed = restSpeed(link);
-      s_.impact_points.push_back(point);
-      ++link.point_count;
-    }
-  }
-  if (s_.impact_points.empty()) return;
-  addBodies(now, false);
-  if (!isStruck()) return;
-  s_.impact.resolve(s_.solver, s_.impact_points, slowApproach());
-  for (const ImpactPoint& point : s_.impact_points) {
-    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, scene_, s_.members);
-  }
-  report(now);
-}
-
-/// The approach that a resting contact stops by itself, m/s.
-double Island::slowApproach() const {
-  return kRestApproach * kRestGap * scene_.rules().tolerance / scene_.rules().step;
-}
-
-/// Whether some pair that touches approaches faster than its resting contact stops by itself.
-bool Island::isStruck() const {
-  for (const IslandLink& link : s_.links) {
-    const double bound = link.memory.resting ? slowApproach() : kStillSpeed;
-    for (std::size_t k = link.first_point;
-         k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
-      const ImpactPoint& point = s_.impact_points[k];
-      const ContactBody& A = s_.solver.bodies()[at(point.a)];
-      const ContactBody& B = s_.solver.bodies()[at(point.b)];
-      const Vector3 v = velocityOfPoint(B.twist, point.p_WC, B.p_WB) -
-                        velocityOfPoint(A.twist, point.p_WC, A.p_WB);
-      if (dot(point.nhat_AB_W, v) < -bound) return true;
-    }
-  }
-  return false;
-}
-
-/// A record for each pair that met faster than what counts as rest.
-void Island::report(double now) {
-  for (IslandLink& link : s_.links) {
-    const PairImpact sum = sumOf(link, s_.impact_points);
-    if (sum.weight == 0.0) continue;
-    ++link.impacts;
-    if (!sum.bounced && sum.approach < scene_.rules().rest_speed) continue;  // comes to rest
-    ContactRecord record;
-    record.kind = sum.bounced ? ContactKind::kBounce : ContactKind::kStick;
-    record.a = link.memory.a;
-    record.b = link.memory.b;
-    record.time = now;
-    record.p_WC = sum.moment / sum.weight;
-    record.nhat_AB_W = link.manifold.nhat_AB_W;
-    record.impulse_B_W = sum.impulse;
-    records_.push_back(record);
+                   at_end ? twistAtEnd(member) : twistNow(member)});
   }
 }
 
@@ -191,19 +110,29 @@ bool Island::addRestPoints(IslandLink& link, double left) {
   link.first_point = s_.solver.pointCount();
   link.point_count = 0;
   if (!link.touching) return false;
+  turn(link, true);
   const double still = restSpeed(link);
+  const double parting = std::min(still, kRestParting * rules.tolerance / left);
   const double wanted = kRestGap * rules.tolerance;
+  double lag = 0.0;  // m/s
+  if (link.slot_a != 0) {
+    lag -= dot(link.manifold.nhat_AB_W, lagOf(s_.members[at(link.slot_a - 1)], scene_, left));
+  }
+  if (link.slot_b != 0) {
+    lag += dot(link.manifold.nhat_AB_W, lagOf(s_.members[at(link.slot_b - 1)], scene_, left));
+  }
   UsedPoints used{};
   const Pose& X_WA = poseOfIndex(link.memory.a);
   const double near = kKnownPoint * scene_.hullOf(link.memory.a).data().radius;
   for (int i = 0; i < link.manifold.count; ++i) {
     const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
-    const double now = rules.step - left;
     const Vector3 v =
-        velocityNow(link.slot_b, contact.p_WC, now) - velocityNow(link.slot_a, contact.p_WC, now);
+        velocityNow(link.slot_b, contact.p_WC) - velocityNow(link.slot_a, contact.p_WC);
     const double speed = dot(link.manifold.nhat_AB_W, v);
-    // What parts flies on its own; what comes fast is an impact, in its time.
-    if (speed > still || (contact.gap > rules.tolerance && speed < -still)) continue;
+    // What parts flies on its own, and rests when it has come back, unless the integrator brings it
+    // nearer at once; what comes fast is an impact, in its time.
+    if (speed + std::min(0.0, lag) > parting || (contact.gap > rules.tolerance && speed < -still))
+      continue;
     ContactDemand asked;
     asked.a = link.slot_a;
     asked.b = link.slot_b;
@@ -217,6 +146,9 @@ bool Island::addRestPoints(IslandLink& link, double left) {
     asked.target = contact.gap > rules.tolerance ? (rules.tolerance - contact.gap) / left
                    : link.memory.resting         ? recovery
                                                  : std::min(0.0, recovery);
+    const Vector3 bend =
+        centripetalNow(link.slot_b, contact.p_WC) - centripetalNow(link.slot_a, contact.p_WC);
+    asked.target -= left * dot(link.manifold.nhat_AB_W, bend);
     asked.friction =
         link.material.stick ? std::numeric_limits<double>::infinity() : link.material.friction;
     asked.start = left * rememberedForce(link.memory, X_WA, contact.p_WC, near, used);
@@ -240,7 +172,7 @@ void Island::press(double now) {
     for (IslandLink& link : s_.links) link.memory.count = 0;
     return;
   }
-  addBodies(now, true);
+  addBodies(true);
   bool any = false;
   for (IslandLink& link : s_.links) any = addRestPoints(link, left) || any;
   const auto points = static_cast<int>(s_.solver.pointCount());
@@ -249,6 +181,16 @@ void Island::press(double now) {
                      kRestResidual * kRestGap * scene_.rules().tolerance / scene_.rules().step});
   }
   takeForces(now, left);
+}
+
+/// Whether the body rests on another piece of the same wall, or did in this step: then its rest
+/// goes on.
+bool Island::restsOnWhole(const IslandLink& link) const {
+  const std::int32_t whole = scene_.wholeOf(link.memory.b);
+  return std::any_of(s_.links.begin(), s_.links.end(), [&](const IslandLink& other) {
+    return other.rested && other.memory.a == link.memory.a &&
+           scene_.wholeOf(other.memory.b) == whole;
+  });
 }
 
 void Island::takeForces(double now, double left) {
@@ -277,6 +219,9 @@ void Island::takeForces(double now, double left) {
     }
     if (memory.resting || !(stopped > kStillSpeed)) continue;
     memory.resting = true;
+    const bool goes_on = restsOnWhole(link);
+    link.rested = true;
+    if (goes_on) continue;
     record.kind = ContactKind::kRest;
     record.a = memory.a;
     record.b = memory.b;

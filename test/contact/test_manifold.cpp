@@ -185,5 +185,26 @@ TEST(Manifold, CornersBeyondTheBandAreLeftOut) {
   EXPECT_EQ(manifold.count, 2);
 }
 
+// Two bars turned by 45 degrees about x touch with an edge each, somewhere off the axes: both
+// points lie in the middle of the gap, in y and z as well.
+TEST(Manifold, ParallelEdgesMeetInTheMiddleOfTheGap) {
+  const ConvexPolyhedron bar = boxPolyhedron(Vector3(2.0, 1.0, 1.0));
+  const Matrix3 R = rotationFromRpy(Vector3(0.25 * 3.14159265358979323846, 0.0, 0.0));
+  const Pose X_WA{R, Vector3(0.0, 3.0, 5.0)};
+  const double edge = std::sqrt(0.5);  // m, from the axis
+  const Pose X_WB{R, Vector3(0.5, 3.0, 5.0 + 2.0 * edge + 4e-3)};
+  FeaturePair features;
+  const ClosestFeatures closest = closestFeatures(bar, X_WA, bar, X_WB, features);
+  const ContactManifold manifold = contactManifold(bar, X_WA, bar, X_WB, closest, 1e-2);
+  ASSERT_EQ(manifold.count, 2);
+  for (const ContactPoint& point : {manifold.points[0], manifold.points[1]}) {
+    EXPECT_NEAR(point.gap, 4e-3, 1e-12);
+    EXPECT_NEAR(point.p_WC.y(), 3.0, 1e-12);
+    EXPECT_NEAR(point.p_WC.z(), 5.0 + edge + 2e-3, 1e-12);
+  }
+  EXPECT_NEAR(std::min(manifold.points[0].p_WC.x(), manifold.points[1].p_WC.x()), -0.5, 1e-12);
+  EXPECT_NEAR(std::max(manifold.points[0].p_WC.x(), manifold.points[1].p_WC.x()), 1.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace hovercraft

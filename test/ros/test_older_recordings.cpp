@@ -29,12 +29,31 @@ namespace {
 
 const std::string kFolder = "test/data/recordings/";
 
-TEST(OlderRecordings, OfEachFormatReplayIdentically) {
-  for (const char* name : {"format_1_contact", "format_1_matrix"}) {
-    std::string verdict;
-    EXPECT_EQ(replayBag({kFolder + name + ".bag", "", {}}, verdict), 0) << name << ": " << verdict;
-    EXPECT_NE(verdict.find("identical: "), std::string::npos) << verdict;
-  }
+const std::string kOlder = "recorded by physics version 1, replayed by 2: ";
+
+// Physics version 2 is another one of contact alone.
+TEST(OlderRecordings, WithoutContactReplayIdentically) {
+  std::string verdict;
+  EXPECT_EQ(replayBag({kFolder + "format_1_matrix.bag", "", {}}, verdict), 0) << verdict;
+  EXPECT_EQ(verdict.rfind(kOlder + "identical: ", 0), 0U) << verdict;
+}
+
+// Two craft of this one meet floor and wall; they stay where they were to a few micrometres until
+// their first impacts, and a part of the tolerance tells where a bounce goes.
+TEST(OlderRecordings, WithContactSayWhereTheyDifferAndByHowMuch) {
+  std::string verdict;
+  EXPECT_EQ(replayBag({kFolder + "format_1_contact.bag", "", {}}, verdict), 2) << verdict;
+  EXPECT_EQ(verdict.rfind(kOlder + "the first difference is at episode ", 0), 0U) << verdict;
+  const Recording recording = readRecording(kFolder + "format_1_contact.bag");
+  EXPECT_EQ(recording.physics_version, 1);
+  const ReplayResult result = replay(recording, recording.scenario, true);
+  ASSERT_TRUE(result.difference);
+  EXPECT_EQ(result.compared_states, recording.states.size());
+  EXPECT_GT(result.largest_error, 0.0);
+  EXPECT_FALSE(result.largest_error_time < result.difference->time);
+  EXPECT_NE(verdict.find(fmt::format("is {:.3g} m at episode ", result.largest_error)),
+            std::string::npos)
+      << verdict;
 }
 
 // The commands of an older bag drive a run, and its states are a trajectory.
@@ -80,19 +99,20 @@ TEST(OlderRecordings, RosbagFixMakesThemRecordingsOfToday) {
     EXPECT_EQ(sums.count(ros::message_traits::MD5Sum<hovercraft_sim::RunEvent>::value()), 1U);
     EXPECT_EQ(sums.count(ros::message_traits::MD5Sum<hovercraft_sim::State>::value()), 1U);
     std::string verdict;
-    EXPECT_EQ(replayBag({fixed, "", {}}, verdict), 0) << name << ": " << verdict;
+    EXPECT_LE(replayBag({fixed, "", {}}, verdict) % 2, 0) << name << ": " << verdict;
+    EXPECT_EQ(verdict.rfind(kOlder, 0), 0U) << verdict;
   }
 }
 
 // The state itself is held by the hash in the snapshot, which is checked when it is read.
-TEST(OlderRecordings, SnapshotsOfEachFormatCanBeGoneOnFrom) {
+TEST(OlderRecordings, SnapshotsOfEachFormatCanBeReadInAReplay) {
   for (const char* name : {"format_1_contact", "format_1_matrix"}) {
     const std::string text =
         hovercraft::readSnapshotText(kFolder + name + std::string(".snapshot.yaml"));
     const auto scenario =
         hovercraft::testing::scenarioOf(YAML::Load(text)["scenario"].as<std::string>());
     hovercraft::Simulation simulation(scenario);
-    simulation.restore(hovercraft::parseSnapshot(text, name, scenario));
+    simulation.restore(hovercraft::parseSnapshot(text, name, scenario, true));
     EXPECT_GT(simulation.tick(), 1000);
     simulation.step();
   }

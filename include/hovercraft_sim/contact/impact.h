@@ -15,6 +15,7 @@ struct ImpactPoint {
   Vector3 p_WC = Vector3::Zero();  // m
   ContactMaterial material;        // of the pair
   double plastic_speed = 0.0;      // m/s: an approach slower than this does not bounce
+  double gain = 0.0;               // m/s: of an approach, what does not bounce
   // Written:
   Vector3 impulse = Vector3::Zero();  // N s, on B
   double approach = 0.0;              // m/s, the fastest that was stopped here

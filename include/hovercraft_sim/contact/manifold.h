@@ -21,6 +21,7 @@ struct ContactManifold {
   Vector3 nhat_AB_W = Vector3::Zero();  // unit, from A to B, the same for all points
   std::array<ContactPoint, kMaxPoints> points;
   int count = 0;
+  bool of_face = false;  // the normal is that of a face
 };
 
 /// The points of a pair whose gap is at most `band`.

@@ -23,6 +23,11 @@ constexpr double kSamePoint = 2e-3;
 /// they are one of the points too: it is where the bodies hit.
 constexpr double kMissedGap = 0.25;
 
+/// Bound on the faces and on the edges around a corner that are looked at for the side on which it
+/// is entered: more than the corners of common solids have; those of a cone's tip beyond it are
+/// nearly alike.
+constexpr int kMostSidesAround = 32;
+
 /// Distance (-, of the size of the first body) up to which a point of contact is one of the last
 /// step's.
 constexpr double kKnownPoint = 0.05;
@@ -91,6 +96,11 @@ constexpr double kRestResidual = 0.03;
 /// Share (-) of the rest gap up to which the approach of a resting pair may eat into it in a step
 /// without being an impact: the force over the step stops it.
 constexpr double kRestApproach = 0.2;
+
+/// Way (-, of the contact tolerance) that a point may part in what is left of a step and still be
+/// pressed: one that goes farther flies, as a force that only lets it come to a stop by the end of
+/// the step would carry it out of touch.
+constexpr double kRestParting = 1.0;
 
 /// Least sweeps (-) of resting contacts: from step to step they bring a stack to its exact forces.
 constexpr int kLeastRestSweeps = 4;

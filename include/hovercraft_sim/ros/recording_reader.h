@@ -13,6 +13,7 @@
 #include "hovercraft_sim/ros/recorded_samples.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace hovercraft_ros {
 
@@ -39,7 +40,8 @@ struct Recording {
 
   std::string source = "the recording";  // for people: the file
   std::string scenario_text;
-  hovercraft::Scenario scenario;  // the same, parsed
+  hovercraft::Scenario scenario;                               // the same, parsed
+  std::int64_t physics_version = hovercraft::kPhysicsVersion;  // that the states were computed by
   std::vector<RecordedCommand> commands;
   std::vector<hovercraft_sim::RunEvent> events;
   std::vector<RecordedState> states;

@@ -28,6 +28,11 @@ struct ReplayResult {
   std::uint64_t compared_samples = 0;  // messages of sensors
   hovercraft::Tick simulated_ticks = 0;
   std::uint64_t hash = 0;  // Simulation::hash() at the end
+  /// Of a position, m, and where it is. Of a recording of this physics version it is 0 up to the
+  /// difference, which ends the replay; one of an older version is replayed to its end.
+  double largest_error = 0.0;
+  RunTime largest_error_time;
+  std::string largest_error_vehicle;
   /// States that rest on something that the recording lacks (Recording::gaps).
   std::uint64_t unknown_states = 0;
 };
@@ -63,7 +68,8 @@ struct ReplayRequest {
 
 /// Replays a bag and says in one line what came of it.
 /// @returns 0 identical, or the scenario was changed and there is nothing to compare; 1 different;
-/// 2 not all can be checked.
+/// 2 not all can be checked, or different from what an older physics version recorded: the verdict
+/// says so, with the first difference and the largest error.
 /// @throws std::invalid_argument for whatever in the request or the bag is bad.
 HOVERCRAFT_PUBLIC int replayBag(const ReplayRequest& request, std::string& verdict);
 

@@ -67,10 +67,11 @@ HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent setActuatorEvent(
     const hovercraft::Scenario& scenario, const hovercraft_sim::SetActuator::Request& request);
 
 /// Changes the simulation as the event says, at its current tick.
+/// @param may_be_older whether a snapshot of an older physics version is one: in a replay.
 /// @throws std::invalid_argument if a snapshot does not fit the scenario, a motion has momenta or
 /// an energy that are not finite, a wind is none, an actuator is not there, or an event is of no
 /// known kind.
 HOVERCRAFT_PUBLIC void applyEvent(const hovercraft_sim::RunEvent& event,
-                                  hovercraft::Simulation& simulation);
+                                  hovercraft::Simulation& simulation, bool may_be_older = false);
 
 }  // namespace hovercraft_ros

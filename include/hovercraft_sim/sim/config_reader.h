@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -59,6 +60,8 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
   /// Any number of numbers, also none; at most `most`.
   std::vector<double> numbers(const char* key, std::size_t most) const;
+  /// A list of pairs of numbers, each of which obeys the rule.
+  std::vector<std::array<double, 2>> pairs(const char* key, const NumberRule& rule) const;
   /// A length, m: greater than 0 and at most kFarthest.
   double length(const char* key) const;
   /// Three of them.

@@ -72,6 +72,15 @@ struct HullScenario {
   Vector3 rpy = Vector3::Zero();   // rad
 };
 
+/// An upright bent wall of one thickness along a line through points of the plane z = 0, m; mitred
+/// where it bends. Its height lies half below and half above that plane.
+struct WallShape {
+  std::vector<std::array<double, 2>> points;  // of its middle line
+  bool closed = false;                        // the first point comes again after the last
+  double thickness = 0.0;                     // m
+  double height = 0.0;                        // m
+};
+
 /// What RViz draws in place of a body's shapes: a mesh of any format that it reads.
 struct VisualScenario {
   std::string resource;             // URL: package://, file://, ...
@@ -144,6 +153,7 @@ struct ObstacleScenario {
   HullScenario hull;                     // placed in W
   std::optional<VisualScenario> visual;  // placed in the frame of the hull's shape
   std::size_t material = 0;
+  std::optional<WallShape> wall;  // in place of the hull's shape, where the hull is placed
 };
 
 /// What the bodies of a scenario meet, and how. Loose bodies are craft whose engines have no

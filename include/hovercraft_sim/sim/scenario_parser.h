@@ -22,7 +22,13 @@ struct ScenarioSource {
   /// Called with what the user should know of a scenario that is in order, one line each, such as
   /// what was made of a mesh file; not set: nobody is told.
   std::function<void(const std::string& note)> note = {};
+  /// Of a recording: a physics_version before that of the build is no error.
+  bool may_be_older = false;
 };
+
+/// By which equations the bits of a run of this text were computed; 1, the first, if it does not
+/// say. @throws std::invalid_argument if it is not the YAML of a map.
+HOVERCRAFT_PUBLIC std::int64_t physicsVersionOf(const std::string& text, const std::string& source);
 
 /// Checks a whole scenario. @param tree of treeOf().
 /// @throws std::invalid_argument with one line that names source, key path, value and rule.

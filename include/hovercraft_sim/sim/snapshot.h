@@ -16,10 +16,12 @@ HOVERCRAFT_PUBLIC std::string toSnapshot(const Simulation& simulation);
 
 /// @param text from toSnapshot(). @param source its name in errors.
 /// @param scenario that the snapshot must belong to.
+/// @param may_be_older of a recording: a physics_version before that of the build is no error.
 /// @throws std::invalid_argument naming source, key and rule, also if the snapshot belongs to
 /// another scenario or its hash is not that of its numbers.
 HOVERCRAFT_PUBLIC SimulationState parseSnapshot(const std::string& text, const std::string& source,
-                                                const Scenario& scenario);
+                                                const Scenario& scenario,
+                                                bool may_be_older = false);
 
 /// The same through a file; an existing one is replaced only when the new one is whole.
 /// @throws std::invalid_argument if it cannot be written, or is longer than readSnapshotText()

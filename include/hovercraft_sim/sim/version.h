@@ -12,7 +12,7 @@ constexpr const char* kVersion = "0.2.0";
 
 /// Raised with every change after which the same scenario and commands give other bits: with each
 /// recorded hash that changes (test/determinism/hashes.txt). Recordings and snapshots carry it.
-constexpr std::int64_t kPhysicsVersion = 1;
+constexpr std::int64_t kPhysicsVersion = 2;
 
 /// Of what toSnapshot() writes; a snapshot without one has format 1.
 constexpr std::int64_t kSnapshotFormat = 2;

@@ -15,6 +15,10 @@ namespace hovercraft {
 /// The corners of a hull in the frame that it is placed in, m.
 HOVERCRAFT_PUBLIC std::vector<Vector3> hullPoints(const HullScenario& hull);
 
+/// The convex bodies that an obstacle is made of, in W: one, or one for each straight part of a
+/// wall, which have whole sides in common.
+HOVERCRAFT_PUBLIC std::vector<HullScenario> piecesOf(const ObstacleScenario& obstacle);
+
 /// The corners of all parts in H, m; balls and round solids as of HullScenario.
 HOVERCRAFT_PUBLIC std::vector<Vector3> partPoints(const std::vector<PartScenario>& parts);
 

@@ -16,8 +16,10 @@ struct IslandLink {
   ClosestFeatures closest;
   ContactManifold manifold;
   ContactMaterial material;
-  int impacts = 0;  // in this step
+  int impacts = 0;     // in this step
+  double found = 0.0;  // m, the gap before bodies were set apart
   bool touching = false;
+  bool rested = false;      // at some time of this step, or at its start
   std::int32_t slot_a = 0;  // bodies of the solver
   std::int32_t slot_b = 0;
   std::size_t first_point = 0;  // of its points in a solve
@@ -61,31 +63,48 @@ class Island {
   bool run();
 
  private:
+  /// What a step without contact would do to a point of a pair.
+  struct FreeStep {
+    double pressed = 0.0;  // m/s², along the normal: of the body that gains more
+    double gain = 0.0;     // m/s: by how much faster the integrator ends a flight than it begins it
+  };
+
   void look(double left);
+  void turn(IslandLink& link, bool at_end);
   bool repair();
   bool repairSweep();
   ClosestFeatures closestNow(IslandLink& link);
   bool shiftApart(const IslandLink& link, double by);
   void strike(double now);
+  FreeStep freeStepOf(const IslandLink& link, const ImpactPoint& point) const;
+  void slowBounces();
   double slowApproach() const;
   bool isStruck() const;
   void report(double now);
   void press(double now);
   bool addRestPoints(IslandLink& link, double left);
   void takeForces(double now, double left);
+  bool restsOnWhole(const IslandLink& link) const;
   double advance(double now);
   bool firstImpact(double duration, double share, double& time) const;
   BodyState moved(const IslandMember& member, double from, double to, const Wrench& contact) const;
   double restSpeed(const IslandLink& link) const;
   const Pose& poseOfIndex(std::int32_t index) const;
   StepMotion motionOfIndex(std::int32_t index) const;
-  void addBodies(double now, bool at_end);
-  Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC, double now) const;
+  void addBodies(bool at_end);
+  // Velocities, with rotors as they turn then: at the start of the piece, or at its end without
+  // contact. A slot is 0 for what is fixed, else 1 + the index of the member.
+  Twist twistNow(const IslandMember& member) const;
+  Twist twistAtEnd(const IslandMember& member) const;
+  Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC) const;
+  Vector3 velocityAtEnd(std::int32_t slot, const Vector3& p_WC) const;
+  Vector3 centripetalNow(std::int32_t slot, const Vector3& p_WC) const;
 
   const Scene& scene_;
   const std::vector<StepInputs>& inputs_;
   IslandScratch& s_;
   std::vector<ContactRecord>& records_;
+  double now_ = 0.0;      // s, from the start of the step: where the piece begins
   bool stuck_ = false;    // the last piece had no length
   bool plastic_ = false;  // the bound on bounces is reached
 };

@@ -35,6 +35,12 @@ class Scene {
   /// In the body's frame B. Only where bodies meet.
   HOVERCRAFT_PUBLIC const ConvexPolyhedron& hullOf(std::int32_t index) const;
   HOVERCRAFT_PUBLIC int materialOf(std::int32_t index) const;
+  /// Pieces of one wall have the same.
+  std::int32_t wholeOf(std::int32_t index) const {
+    if (!isFixed(index)) return index;
+    const std::int32_t whole = obstacles_[static_cast<std::size_t>(index) - bodies_.size()].whole;
+    return whole < 0 ? index : whole + static_cast<std::int32_t>(bodies_.size());
+  }
   const ContactMaterial& lawOf(const ScenePair& pair) const {
     return rules_.pair(materialOf(pair.first), materialOf(pair.second));
   }

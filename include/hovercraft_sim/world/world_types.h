@@ -30,6 +30,7 @@ struct WorldObstacle {
   ConvexPolyhedron hull;
   Pose X_WO;
   int material = 0;
+  std::int32_t whole = -1;  // the first obstacle of the wall that it is a piece of; -1: of none
 };
 
 /// How bodies meet.

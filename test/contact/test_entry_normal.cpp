@@ -1,0 +1,92 @@
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/contact/entry_normal.h"
+#include "hovercraft_sim/geometry/polyhedron_shapes.h"
+
+namespace hovercraft {
+namespace {
+
+const Twist kStill{Vector3::Zero(), Vector3::Zero()};
+
+/// The manifold of two boxes of edge 1: A in the origin, B at a place, moving.
+ContactManifold turned(const Vector3& p_WB, const Vector3& v_WB) {
+  const ConvexPolyhedron box = boxPolyhedron(Vector3::Ones());
+  const Pose X_WA;
+  const Pose X_WB{Matrix3::Identity(), p_WB};
+  FeaturePair features;
+  const ClosestFeatures closest = closestFeatures(box, X_WA, box, X_WB, features);
+  ContactManifold manifold = contactManifold(box, X_WA, box, X_WB, closest, 1e-6);
+  turnToEntry({box, X_WA, kStill}, {box, X_WB, {v_WB, Vector3::Zero()}}, closest, manifold);
+  return manifold;
+}
+
+// Edge beside edge, 0.3 µm across and 0.4 µm above: which side is entered is the motion's choice.
+TEST(EntryNormal, IsOfTheSideThatTheMotionReachesLast) {
+  const Vector3 beside(1.0 + 0.3e-6, 0.0, 1.0 + 0.4e-6);
+  const Vector3 up(0.0, 0.0, 1.0);
+  const Vector3 across(1.0, 0.0, 0.0);
+  const struct {
+    Vector3 v, normal;
+    double gap;
+  } cases[] = {
+      {{-1.0, 0.0, 0.0}, up, 0.4e-6},        // flush: passes over
+      {{0.0, 0.0, -1.0}, across, 0.3e-6},    // passes beside
+      {{-1.0, 0.0, -0.1}, up, 0.4e-6},       // across after 0.3 µs, on top after 4 µs
+      {{-0.1, 0.0, -1.0}, across, 0.3e-6},   // the other way round
+      {{-1.0, 0.0, -1.34}, across, 0.3e-6},  // 0.300 µs against 0.299 µs
+      {{-1.0, 0.0, -1.32}, up, 0.4e-6},      // 0.300 µs against 0.303 µs
+  };
+  for (const auto& one : cases) {
+    const ContactManifold manifold = turned(beside, one.v);
+    EXPECT_GE(manifold.count, 1);
+    EXPECT_LT(norm(manifold.nhat_AB_W - one.normal), 1e-12) << one.v.transpose();
+    for (int i = 0; i < manifold.count; ++i) {
+      EXPECT_NEAR(manifold.points[static_cast<std::size_t>(i)].gap, one.gap, 1e-15);
+    }
+  }
+}
+
+// Where nothing closes there is no side to enter: the line of the closest points stays.
+TEST(EntryNormal, StaysWhereNothingCloses) {
+  const Vector3 beside(1.0 + 0.3e-6, 0.0, 1.0 + 0.4e-6);
+  for (const Vector3& v : {Vector3(0.0, 0.0, 0.0), Vector3(1.0, 0.0, 1.0)}) {
+    EXPECT_LT(norm(turned(beside, v).nhat_AB_W - Vector3(0.6, 0.0, 0.8)), 1e-9);
+  }
+}
+
+// The corner of one box beside the corner of another, from random sides: with the normal that comes
+// out the bodies meet no earlier than along any other direction that parts them.
+TEST(EntryNormal, OfACornerIsEnteredNoEarlierThanAnyOther) {
+  std::mt19937 generator(7);  // NOLINT(cert-msc32-c,cert-msc51-cpp)
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const Vector3 beside(1.0 + 0.3e-6, 1.0 + 0.5e-6, 1.0 + 0.4e-6);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vector3 v(uniform(generator), uniform(generator), uniform(generator));
+    const ContactManifold manifold = turned(beside, v);
+    ASSERT_EQ(manifold.count, 1);
+    const double closing = -dot(manifold.nhat_AB_W, v);
+    // The difference of the boxes is a box: its three sides at this corner.
+    double last = 0.0;
+    bool passes = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      passes = passes || v[axis] >= 0.0;
+      last = std::max(last, (beside[axis] - 1.0) / std::max(1e-300, -v[axis]));
+    }
+    if (passes) {
+      EXPECT_LE(closing, 1e-12) << trial;
+    } else {
+      EXPECT_NEAR(manifold.points[0].gap / closing, last, 1e-9 * last) << trial;
+    }
+  }
+}
+
+TEST(EntryNormal, OfAFaceIsThatOfTheFace) {
+  const ContactManifold manifold = turned(Vector3(0.5, 0.0, 1.0 + 0.4e-6), Vector3(-1.0, 0.0, 1.0));
+  EXPECT_EQ(manifold.count, 4);
+  EXPECT_LT(norm(manifold.nhat_AB_W - Vector3(0.0, 0.0, 1.0)), 1e-15);
+}
+
+}  // namespace
+}  // namespace hovercraft
