@@ -49,12 +49,13 @@ bool FeatureWalk::moveVertex(int side) {
   return true;
 }
 
-FeatureWalk::End FeatureWalk::run() {
+FeatureWalk::End FeatureWalk::run(std::int32_t patience) {
   const auto bound =
       static_cast<std::int32_t>(64 + 4 * (body_[0]->edges.size() + body_[1]->edges.size()));
   std::array<Feature, 2> mark = feature_;  // Brent's search for a cycle
   std::int32_t next_mark = 2;
   for (std::int32_t i = 1; i <= bound; ++i) {
+    if (patience > 0 && i > patience) return End::kImpatient;
     ++steps_;
     const Outcome outcome = step();
     if (outcome == Outcome::kClosest) return End::kClosest;

@@ -17,7 +17,7 @@ void Island::begin(const std::vector<std::int32_t>& bodies, const std::vector<Sc
     member.index = bodies[k];
     member.state = states[at(bodies[k])];
     member.pose = poseOf(member.state);
-    member.travelled = 0.0;
+    member.travelled = Vector3::Zero();
     s_.slots[at(bodies[k])] = static_cast<std::int32_t>(k + 1);  // 0: what is fixed
   }
   s_.links.resize(pairs.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 
@@ -43,10 +44,22 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
     }
     extent.spin_per_L = std::sqrt(sum);
     for (const Rotor& rotor : body.model.rotors) extent.rotors += rotor.most;
+    for (int i = 0; i < 3; ++i) {
+      // Points leave along an axis by turns about the other two.
+      const double others =
+          inverse_inertia((i + 1) % 3, (i + 1) % 3) + inverse_inertia((i + 2) % 3, (i + 2) % 3);
+      extent.turns[i] = others > 0.0 ? 1.0 : 0.0;
+    }
     extents_.push_back(extent);
   }
   for (const WorldObstacle& obstacle : obstacles_) {
     obstacle_boxes_.push_back(boundsOf(obstacle.hull, obstacle.X_WO));
+    std::vector<Side>& sides = obstacle_sides_.emplace_back();
+    if (obstacle.hull.faceCount() > kFewFaces) continue;
+    for (const PolyhedronData::Face& face : obstacle.hull.data().faces) {
+      const Vector3 normal = times(obstacle.X_WO.R_AB, face.normal);
+      sides.push_back({normal, face.offset + dot(normal, obstacle.X_WO.p_AB)});
+    }
   }
 }
 
@@ -124,27 +137,42 @@ BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInput
       state);
 }
 
-double Scene::travelOf(std::size_t body, const BodyState& from, const BodyState& to,
-                       double h) const {
+Vector3 Scene::travelOf(std::size_t body, const BodyState& from, const BodyState& to,
+                        double h) const {
   const Extent& extent = extents_[body];
   const Mobility& mobility = bodies_[body].model.mobility;
   return std::visit(
       [&](const auto& a) {
         const auto& b = std::get<std::decay_t<decltype(a)>>(to);
-        const double bend = norm(mobility.velocity(b.momentum_W - a.momentum_W)) * h;
+        const Vector3 bend = h * mobility.velocity(b.momentum_W - a.momentum_W).cwiseAbs();
         const double spin =
             extent.spin_per_L *
-            (std::max(norm(a.angular_momentum_W), norm(b.angular_momentum_W)) + extent.rotors);
-        return norm(b.p_WB - a.p_WB) + bend + spin * h * extent.radius;
+            (extent.rotors + std::sqrt(std::max(squaredNorm(a.angular_momentum_W),
+                                                squaredNorm(b.angular_momentum_W))));
+        return Vector3((b.p_WB - a.p_WB).cwiseAbs() + bend +
+                       (spin * h * extent.radius) * extent.turns);
       },
       from);
 }
 
-AxisAlignedBox Scene::boxOf(std::size_t body, const Pose& pose, double margin) const {
+AxisAlignedBox Scene::boxOf(std::size_t body, const Pose& pose, const Vector3& margin) const {
   const Extent& extent = extents_[body];
   const Vector3 center = transform(pose, extent.center_B);
-  const Vector3 half = times(pose.R_AB.cwiseAbs(), extent.half_B) + Vector3::Constant(margin);
+  const Vector3 half = times(pose.R_AB.cwiseAbs(), extent.half_B) + margin;
   return {center - half, center + half};
+}
+
+bool Scene::staysOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+                         std::int32_t obstacle) const {
+  const Extent& extent = extents_[body];
+  const Vector3 center = transform(pose, extent.center_B);
+  const auto& sides = obstacle_sides_[static_cast<std::size_t>(obstacle) - bodies_.size()];
+  return std::any_of(sides.begin(), sides.end(), [&](const Side& side) {
+    const Vector3 n_B = transposeTimes(pose.R_AB, side.normal).cwiseAbs();
+    const double reach = dot(n_B, extent.half_B) + dot(Vector3(side.normal.cwiseAbs()), travel) +
+                         kLostContact * rules_.tolerance;
+    return dot(side.normal, center) - side.offset > reach;
+  });
 }
 
 ClosestFeatures Scene::closestOf(const std::vector<BodyState>& states,

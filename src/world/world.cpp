@@ -34,8 +34,9 @@ World::World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
       extents_(scene_.bodies().size()) {}
 
 /// How far from its centre of mass a body can be near something in this step, m.
-double World::reachOf(std::size_t body) const {
-  return scene_.radiusOf(body) + extents_[body].travel + scene_.rules().tolerance;
+Vector3 World::reachOf(std::size_t body) const {
+  return extents_[body].travel +
+         Vector3::Constant(scene_.radiusOf(body) + kLostContact * scene_.rules().tolerance);
 }
 
 /// The boxes within which the list of neighbours stays complete. A body that is far from all others
@@ -43,9 +44,9 @@ double World::reachOf(std::size_t body) const {
 void World::makeRoom(const std::vector<BodyState>& states) {
   const std::size_t count = scene_.bodies().size();
   for (std::size_t i = 0; i < count; ++i) {
-    const double reach = reachOf(i);
+    const Vector3 reach = reachOf(i);
     const Vector3& p = positionOf(states[i]);
-    extents_[i].roomy = {p - Vector3::Constant(reach), p + Vector3::Constant(reach)};
+    extents_[i].roomy = {p - reach, p + reach};
   }
   rooms_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -56,7 +57,7 @@ void World::makeRoom(const std::vector<BodyState>& states) {
     for (std::size_t j = 0; j < scene_.obstacles().size(); ++j) {
       clear = std::min(clear, gapOf(extents_[i].roomy, scene_.fixedBox(j)));
     }
-    rooms_[i] = std::max(kRoom * scene_.radiusOf(i) + kStepsAhead * extents_[i].travel,
+    rooms_[i] = std::max(kRoom * scene_.radiusOf(i) + kStepsAhead * extents_[i].travel.maxCoeff(),
                          std::min(kFarRoom, 0.5 * clear));
   }
   for (std::size_t i = 0; i < count; ++i) {
@@ -70,10 +71,9 @@ bool World::findNeighbours(const std::vector<BodyState>& states) {
   const std::size_t count = scene_.bodies().size();
   bool inside = knows_neighbours_;
   for (std::size_t i = 0; i < count && inside; ++i) {
-    const double reach = reachOf(i);
+    const Vector3 reach = reachOf(i);
     const Vector3& p = positionOf(states[i]);
-    const Vector3 around = Vector3::Constant(reach);
-    inside = holds(extents_[i].roomy, {p - around, p + around});
+    inside = holds(extents_[i].roomy, {p - reach, p + reach});
   }
   if (inside) return !neighbours_.empty();
   neighbours_.clear();
@@ -97,14 +97,22 @@ void World::findNearPairs(const std::vector<BodyState>& states) {
   near_.clear();
   if (!findNeighbours(states)) return;
   boxes_.resize(scene_.bodies().size());
+  // A resting contact that is not over is near.
+  const Vector3 touch = Vector3::Constant(kLostContact * scene_.rules().tolerance);
   for (std::size_t i = 0; i < scene_.bodies().size(); ++i) {
-    boxes_[i] = scene_.boxOf(i, poseOf(states[i]), extents_[i].travel + scene_.rules().tolerance);
+    boxes_[i] = scene_.boxOf(i, poseOf(states[i]), extents_[i].travel + touch);
   }
   for (const ScenePair& pair : neighbours_) {
+    const auto a = static_cast<std::size_t>(pair.first);
     const auto b = static_cast<std::size_t>(pair.second);
+    const bool is_fixed = scene_.isFixed(pair.second);
     const AxisAlignedBox& other =
-        scene_.isFixed(pair.second) ? scene_.fixedBox(b - scene_.bodies().size()) : boxes_[b];
-    if (boxes_[static_cast<std::size_t>(pair.first)].overlaps(other)) near_.push_back(pair);
+        is_fixed ? scene_.fixedBox(b - scene_.bodies().size()) : boxes_[b];
+    if (!boxes_[a].overlaps(other)) continue;
+    if (is_fixed && scene_.staysOutside(a, poseOf(states[a]), extents_[a].travel, pair.second)) {
+      continue;
+    }
+    near_.push_back(pair);
   }
 }
 
@@ -144,8 +152,9 @@ bool World::takeIsland(StepResult& result) {
   for (const IslandMember& member : scratch_.members) {
     const auto i = static_cast<std::size_t>(member.index);
     result.states[i] = member.state;
-    if (member.travelled <= extents_[i].travel) continue;
-    extents_[i].travel = kTravelReserve * member.travelled;
+    const Vector3& travelled = member.travelled;
+    if ((travelled.array() <= extents_[i].travel.array()).all()) continue;
+    extents_[i].travel = extents_[i].travel.cwiseMax(kTravelReserve * travelled);
     enough = false;
   }
   for (const IslandLink& link : scratch_.links) result.memory.push_back(link.memory);
@@ -179,7 +188,7 @@ int World::step(const std::vector<StepInputs>& inputs, const std::vector<BodySta
   for (std::size_t i = 0; i < states.size(); ++i) {
     extents_[i].travel =
         kTravelReserve * scene_.travelOf(i, states[i], result.states[i], scene_.rules().step);
-    if (!isInReach(result.states[i]) || !(extents_[i].travel <= kFarthest)) {
+    if (!isInReach(result.states[i]) || !(extents_[i].travel.maxCoeff() <= kFarthest)) {
       return static_cast<int>(i);
     }
   }

@@ -17,7 +17,7 @@ namespace hovercraft {
 /// pair in the world costs no digits. Side 0 is A, side 1 is B.
 class FeatureWalk {
  public:
-  enum class End { kClosest, kOverlap, kStepLimit };
+  enum class End { kClosest, kOverlap, kStepLimit, kImpatient };
 
   FeatureWalk(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
               const Pose& X_WB)
@@ -44,7 +44,8 @@ class FeatureWalk {
   }
 
   /// Walks until the pair is certified, the bodies seem to overlap, or the bound is reached.
-  End run();
+  /// @param patience steps after which the walk is given up as kImpatient; 0: never.
+  End run(std::int32_t patience = 0);
 
   const std::array<Feature, 2>& features() const { return feature_; }
   const std::array<std::int32_t, 2>& hints() const { return hints_; }

@@ -34,7 +34,7 @@ struct IslandMember {
   Pose pose;
   Wrench contact;  // constant force and moment over the piece of a step
   StepMotion motion;
-  double travelled = 0.0;  // m
+  Vector3 travelled = Vector3::Zero();  // m
 };
 
 /// The arrays of the event loop, kept from step to step so that nothing is allocated.

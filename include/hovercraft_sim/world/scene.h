@@ -67,14 +67,19 @@ class Scene {
   void moveAll(const std::vector<BodyState>& states, const std::vector<StepInputs>& inputs,
                std::vector<BodyState>& ends) const;
 
-  /// Bound on the way of a body's points between two states of a piece of h seconds, m: straight,
-  /// curved, and turned.
-  double travelOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
+  /// Bound on the way of a body's points along each axis of W between two states of a piece of h
+  /// seconds, m: straight, curved, and turned.
+  Vector3 travelOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
 
   /// Radius of a body around its centre of mass, m.
   double radiusOf(std::size_t body) const { return extents_[body].radius; }
-  /// A box around a body's hull, widened by a margin, m.
-  AxisAlignedBox boxOf(std::size_t body, const Pose& pose, double margin) const;
+  /// A box around a body's hull, widened by a margin along each axis, m.
+  AxisAlignedBox boxOf(std::size_t body, const Pose& pose, const Vector3& margin) const;
+  /// Whether a body that goes no farther along the axes of W than `travel` (m) stays on the outer
+  /// side of a face of an obstacle, by more than a resting contact. Only obstacles of few faces are
+  /// looked at (kFewFaces).
+  bool staysOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+                    std::int32_t obstacle) const;
 
   ClosestFeatures closestOf(const std::vector<BodyState>& states, const ScenePair& pair) const;
 
@@ -88,9 +93,10 @@ class Scene {
   struct Extent {
     Vector3 center_B = Vector3::Zero();  // m, of the box around the hull
     Vector3 half_B = Vector3::Zero();
-    double radius = 0.0;      // m, from B
-    double spin_per_L = 0.0;  // bound on |w| / |L|, 1/(kg m²)
-    double rotors = 0.0;      // bound on the angular momentum of its rotors, N m s
+    double radius = 0.0;              // m, from B
+    double spin_per_L = 0.0;          // bound on |w| / |L|, 1/(kg m²)
+    double rotors = 0.0;              // bound on the angular momentum of its rotors, N m s
+    Vector3 turns = Vector3::Ones();  // 0 along an axis about which alone it can turn
   };
 
   WorldRules rules_;
@@ -98,6 +104,13 @@ class Scene {
   std::vector<WorldObstacle> obstacles_;
   std::vector<Extent> extents_;  // of each body, where bodies meet
   std::vector<AxisAlignedBox> obstacle_boxes_;
+
+  /// normal · x <= offset inside, in W.
+  struct Side {
+    Vector3 normal;
+    double offset;  // m
+  };
+  std::vector<std::vector<Side>> obstacle_sides_;  // none of those of many faces
 };
 
 }  // namespace hovercraft

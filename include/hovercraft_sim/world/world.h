@@ -66,11 +66,11 @@ class HOVERCRAFT_PUBLIC World {
  private:
   /// What the neighbour search knows of a body.
   struct Extent {
-    double travel = 0.0;   // m: how far its points can come in this step
-    AxisAlignedBox roomy;  // its neighbours are known as long as it stays inside
+    Vector3 travel = Vector3::Zero();  // m: how far its points can come in this step
+    AxisAlignedBox roomy;              // its neighbours are known as long as it stays inside
   };
 
-  double reachOf(std::size_t body) const;
+  Vector3 reachOf(std::size_t body) const;
   void makeRoom(const std::vector<BodyState>& states);
   bool findNeighbours(const std::vector<BodyState>& states);
   void findNearPairs(const std::vector<BodyState>& states);
