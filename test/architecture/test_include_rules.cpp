@@ -62,6 +62,9 @@ const std::map<std::string, Rule>& rules() {
        {{"math", "geometry", "body", "cushion", "hovercraft", "sensors", "sim", "ros"},
         of_ros + Names{"zlib.h"}}},
       {"nodes", {{"sim", "ros"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+      {"python",
+       {{"math", "geometry", "body", "hovercraft", "sensors", "sim", "ros"},
+        {"fmt/", "pybind11/"}}},
       {"tools",
        {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
