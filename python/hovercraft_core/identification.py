@@ -11,6 +11,7 @@ import numpy as np
 import yaml
 
 from . import _arrays
+from ._bag_reader import ENGINES
 from ._simulation import Simulation
 
 OUTPUT_STEP = 0.01     # s between predicted states, at most; in between cubic (Hermite)
@@ -19,6 +20,7 @@ ROUNDS = 3             # of fits, each with the weights that the one before left
 LEAST_SEGMENTS = 3
 WORST_SEGMENT = 5.0    # times the median: such segments are no motion of this craft
 UNSEEN = 0.5           # of the size of a parameter: a standard error beyond it tells nothing
+ALIKE = 1e-3           # of a combination that changes nothing but by what derivatives err
 TANGLED = 0.999        # correlation of parameters that cannot be told apart
 OWN_KEYS = {"delay": 0.1, "marker[0]": 0.1, "marker[1]": 0.1, "marker_yaw": 0.1}  # with their sizes: s, m, m, rad
 
@@ -137,10 +139,19 @@ class Predictor:
                     scenario.set(key, float(value))
         return scenario
 
+    def _unlimited(self, scenario):
+        """Limits of engines that no scaled command meets: commands are held to the true ones before."""
+        for name in self.names:
+            if name in ENGINES:
+                low, high = self.scenario._held.limits(self.vehicle, name)
+                scenario.set(f"vehicles.{self.vehicle}.engines.{name}.min_thrust", 100.0 * low)
+                scenario.set(f"vehicles.{self.vehicle}.engines.{name}.max_thrust", 100.0 * high)
+        return scenario
+
     def _simulation_with(self, values):
         key = tuple(value for parameter, value in zip(self.parameters, values) if parameter.keys)
         if self._simulation is None or key != self._values:
-            self._simulation = Simulation(self.fitted(values))
+            self._simulation = Simulation(self._unlimited(self.fitted(values)))
             self._values = key
         return self._simulation
 
@@ -154,7 +165,7 @@ class Predictor:
                 continue
             scale = own.get(f"thrust_scale.{actuator}", own.get("thrust_scale", 1.0))
             low, high = self.scenario._held.limits(self.vehicle, actuator)
-            values = np.clip(np.clip(values, low, high) * scale, low, high) if scale == 1.0 else np.clip(values, low, high) * scale
+            values = np.clip(values, low, high) * scale
             at = (times + own["delay"] - origin) / h
             columns[index] = _mixed(at, values)
         ticks = np.unique(np.concatenate([ticks for ticks, _ in columns.values()] or [np.empty(0, dtype=np.int64)]))
@@ -293,7 +304,9 @@ class Problem:
         self.starts = np.array([segment.start for segment in segments])
         self.noise = np.array([0.01, 0.01, 0.02])
         self.residuals, self.dropped_segments = None, 0
-        self._steps = np.array([1e-4 * parameter.size for parameter in self.parameters])
+        # Over a whole step of the simulation the effect of a delay is smooth.
+        self._steps = np.array([predictor.step_ns * 1e-9 if parameter.name == "delay" else 1e-4 * parameter.size
+                                for parameter in self.parameters])
         self._point = None
 
     def _predict(self, starts, values):
@@ -386,7 +399,7 @@ def _refuse_tangled(names, unit, lengths):
     _, singular, rows = np.linalg.svd(unit, full_matrices=False)
     for value, direction in zip(singular, rows):
         parts = np.abs(direction) > 0.2
-        is_weak = value < np.sqrt(1.0 - TANGLED) and np.max(np.abs(direction) / lengths) > UNSEEN * value
+        is_weak = value < ALIKE or (value < np.sqrt(1.0 - TANGLED) and np.max(np.abs(direction) / lengths) > UNSEEN * value)
         if is_weak and np.count_nonzero(parts) > 1:
             tangled = ", ".join(name for name, part in zip(names, parts) if part)
             raise Refusal(f"the data cannot tell apart: {tangled}; leave one of them as it is")

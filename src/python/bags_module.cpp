@@ -47,7 +47,8 @@ void writeBag(const std::string& path, const std::string& yaml, const std::strin
 }  // namespace
 
 PYBIND11_MODULE(_bags, module) {
-  registerRows();
+  // Their types are known to numpy from there, for all extension modules of a process.
+  py::module_::import("hovercraft_core._core");
   module.def("bag_commands", bagCommands);
   module.def("bag_trajectories", [](const std::string& path) {
     return toPython(hovercraft_ros::readBagTrajectories(path));

@@ -36,7 +36,7 @@ struct TrajectoryRow {
 using CommandRows = pybind11::array_t<CommandRow, pybind11::array::c_style>;
 using TrajectoryRows = pybind11::array_t<TrajectoryRow, pybind11::array::c_style>;
 
-/// Makes both known to numpy; once in each extension module.
+/// Makes both known to numpy; once in a process.
 void registerRows();
 
 /// A one-dimensional array with these elements.
