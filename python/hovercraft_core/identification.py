@@ -443,8 +443,6 @@ def fit(predictor, segments):
         if turn == 0:
             problem.drop_worst()
     projected = problem.evaluate(values)[1]
-    for parameter, value in zip(problem.parameters, values):
-        parameter.size = max(parameter.size, abs(value)) if parameter.keys else parameter.size
     return Fit(problem, values, _covariance(projected, problem.parameters))
 
 
