@@ -45,7 +45,8 @@ system_family() {
   esac
 }
 
-# The packages for one purpose: core (without ROS), core_test, build (and run), test, lint, demo, papers (plot_run.py), web, rviz.
+# The packages for one purpose: core (without ROS), core_test, build (and run), test, lint, demo, papers (plot_run.py), python (the package
+# hovercraft_core, identify), web, rviz.
 packages_for() {
   local common
   case "$1" in
@@ -59,6 +60,7 @@ packages_for() {
     core_test) common='libgtest-dev' ;;
     demo) common='' ;;
     papers) common='python3-matplotlib python3-numpy' ;;
+    python) common='pybind11-dev python3-dev python3-numpy python3-scipy python3-yaml python3-matplotlib' ;;
     # What makes and tests the front end of pages (scripts/check_page). A node from elsewhere brings its own npm.
     web)
       common='nodejs chromium'

@@ -65,6 +65,9 @@ const std::map<std::string, Rule>& rules() {
        {{"math", "hovercraft", "sim", "ros", "report"},
         of_ros + Names{"boost/asio/", "boost/beast/"}}},
       {"nodes", {{"sim", "ros", "web"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+      {"python",
+       {{"math", "geometry", "body", "hovercraft", "sensors", "sim", "ros"},
+        {"fmt/", "pybind11/"}}},
       {"tools",
        {{"sim", "ros", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
