@@ -18,8 +18,8 @@ import shutil
 
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
-DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md',
-             'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md')
+DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/reference.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md',
+             'doc/sensors.md', 'doc/helm.md', 'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md', 'doc/accuracy.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
