@@ -56,7 +56,7 @@ packages_for() {
     fast) common='ccache ninja-build' ;;
     test) common="$(packages_for clang) $(packages_for fast) libbenchmark-dev libgtest-dev pkg-config" ;;
     # The versions that decide; clang-tidy 22 takes half the time of 14 (scripts/clang_tidy.py).
-    lint) common='clang-format-14 clang-tidy-22 catkin-lint' ;;
+    lint) common='clang-format-14 clang-tidy-22 catkin-lint codespell' ;;
     core_test) common='libgtest-dev' ;;
     demo) common='' ;;
     papers) common='python3-matplotlib python3-numpy' ;;

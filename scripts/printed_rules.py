@@ -18,8 +18,9 @@ import shutil
 
 Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive then says', defaults=(None, None, False, None, None, None, None))
 
-DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md', 'doc/sensors.md', 'doc/helm.md',
-             'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md', 'doc/web.md')
+DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/reference.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md',
+             'doc/sensors.md', 'doc/helm.md', 'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md', 'doc/accuracy.md', 'doc/tutorial.md', 'doc/cookbook.md',
+             'doc/web.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
@@ -67,9 +68,17 @@ RULES = (
     Rule(r'rosservice call /hovercraft_sim/…|rosbag (record|reindex)|rosrun hovercraft_sim|simulate --(contacts|cushion|sensors) (FILE\.csv|DIR)|simulate --(hold|pilot|truth-odom truth/odom)|replay --version|rosbag fix old\.bag new\.bag|rosparam delete /use_sim_time',
          skip=NAMED),
     Rule(r'roslaunch hovercraft_sim sim\.launch set:=.*', beside=(), until='/hovercraft_sim/scenario'),
+    # doc/cookbook.md
+    Rule(r'roslaunch two_craft\.launch .*', beside=(), until='rostopic echo -n 1 --filter "m.twist.linear.x > 0.9" /blue/twist', stays=True),
+    Rule(r'rostopic echo -n 1 /(red|blue)/twist/twist', beside=('roslaunch two_craft.launch folder:=$PWD',)),
+    Rule(r'roslaunch hovercraft_sim sim\.launch scenario:=\$PWD/my_craft\.yaml', beside=(), until='/hovercraft_sim/scenario'),
+    # doc/tutorial.md
+    Rule(r'python3 scripts/plot_tutorial\.py .*', skip='it takes a minute and more'),
     # CONTRIBUTING.md
     Rule(r'cmake .* build/mine .*|build/mine/.*', skip='scripts/test builds and runs the same in build_release'),
-    Rule(r'scripts/(fuzz|mutate) .*', skip=NAMED),
+    Rule(r'cmake .* build_release -DCATKIN_ENABLE_TESTING=ON|cmake .* --target hovercraft_sim_test_math .*|build_release/.*/hovercraft_sim_test_math .*',
+         skip=SCRIPTS_TEST),
+    Rule(r'clang-format-14 -i .*|scripts/(fuzz|mutate) .*', skip=NAMED),
     Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
     # doc/craft.md

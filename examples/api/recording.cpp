@@ -1,4 +1,4 @@
-// The commands and the way of a recorded bag.
+// The commands and the trajectory of a recorded bag.
 #include <cstdio>
 #include <exception>
 

@@ -73,7 +73,7 @@ class Fields {
       const auto key = static_cast<std::size_t>(static_cast<const char*>(equals) - begin);
       if (!values_.emplace(std::string(begin, key), std::string(begin + key + 1, begin + length))
                .second) {
-        fail("a field stands twice in a header");
+        fail("duplicate field in a header");
       }
       at += length;
     }

@@ -150,8 +150,7 @@ void checkNames(const ConfigReader& reader, const Scenario& scenario) {
   std::sort(names.begin(), names.end());
   const auto twice = std::adjacent_find(names.begin(), names.end());
   if (twice != names.end()) {
-    reader.fail(
-        "", fmt::format("the name {} stands twice among vehicles, bodies and obstacles", *twice));
+    reader.fail("", fmt::format("duplicate name {} among vehicles, bodies and obstacles", *twice));
   }
 }
 

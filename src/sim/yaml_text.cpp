@@ -47,7 +47,7 @@ struct Open {
 };
 
 /// Makes the tree from what yaml-cpp reads piece by piece. Its own tree (YAML::Node) would take
-/// keys that stand twice, know no merge keys, and share nodes that overrides are to change apart.
+/// duplicate keys, know no merge keys, and share nodes that overrides are to change apart.
 class TreeBuilder : public YAML::EventHandler {
  public:
   explicit TreeBuilder(const std::string& source) : source_(source) {}
@@ -151,8 +151,7 @@ class TreeBuilder : public YAML::EventHandler {
     const bool is_known = map.is_merge ? map.has_merge : !map.keys.insert(node.text()).second;
     map.key = node.text();
     if (is_known) {
-      fail(source_,
-           fmt::format("{}: the key stands twice, again in line {}", path(), mark.line + 1));
+      fail(source_, fmt::format("{}: duplicate key, again in line {}", path(), mark.line + 1));
     }
   }
 

@@ -79,7 +79,7 @@ TEST(Overrides, MustHaveAValueThatIsYaml) {
   EXPECT_EQ(after({"a.b=["}).rfind("--set a.b=[: not YAML: ", 0), 0U) << after({"a.b=["});
   EXPECT_EQ(after({"a.b='x"}).rfind("--set a.b='x: not YAML: ", 0), 0U) << after({"a.b='x"});
   EXPECT_EQ(after({"a.b={c: 1, c: 2}"}),
-            "--set a.b={c: 1, c: 2}: c: the key stands twice, again in line 1");
+            "--set a.b={c: 1, c: 2}: c: duplicate key, again in line 1");
   EXPECT_EQ(after({"a.b=!!int 5"}), "--set a.b=!!int 5: line 1: a tag (!...) has no meaning here");
 }
 

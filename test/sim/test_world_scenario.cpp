@@ -113,7 +113,7 @@ TEST(WorldScenario, WhatIsWrongIsSaidOnOneLine) {
                 .find("world.material_pairs[0].second = glass: must be one of: default, ice, wood"),
             std::string::npos);
   EXPECT_NE(complaintAbout(with(text, "    drum: {mass", "    wall: {mass"))
-                .find("the name wall stands twice among vehicles, bodies and obstacles"),
+                .find("duplicate name wall among vehicles, bodies and obstacles"),
             std::string::npos);
   EXPECT_NE(complaintAbout(with(text, "position: [1, 0.1, 0]", "position: [0.2, 0.1, 0]"))
                 .find("crate and drum overlap at the start by 0.1"),

@@ -58,11 +58,11 @@ inline const std::vector<BrokenRule> kBrokenKeys = {
      "    drag: {linear: [0.8, 1.2, 1.6], quadratic: [0.4, 0.9, 1.1], angular_linear: [0.12, "
      "0.13, 0.14], angular_quadratic: [0.05, 0.06, 0.07]}",
      "    drag:", "vehicles.alpha.drag: the value is missing"},
-    {"KeyTwice", "seed: 7", "seed: 7\nseed: 8", "seed: the key stands twice, again in line 8"},
+    {"KeyTwice", "seed: 7", "seed: 7\nseed: 8", "seed: duplicate key, again in line 8"},
     {"KeyTwiceInside", "ixx: 0.1,", "ixx: 0.1, ixx: 0.1,",
-     "vehicles.alpha.inertia.ixx: the key stands twice, again in line 12"},
+     "vehicles.alpha.inertia.ixx: duplicate key, again in line 12"},
     {"VehicleTwice", "  alpha:\n", "  alpha: {mass: 1}\n  alpha:\n",
-     "vehicles.alpha: the key stands twice, again in line 10"},
+     "vehicles.alpha: duplicate key, again in line 10"},
 };
 
 // ---- numbers ------------------------------------------------------------------------------------
