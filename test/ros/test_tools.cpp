@@ -87,7 +87,7 @@ TEST_F(Tools, EachSaysItsVersionAndThatOfThePhysics) {
                            "replay", "report", "simulate", "velocity_gains"}) {
     const Outcome outcome = run(std::string(tool) + " --version");
     EXPECT_EQ(outcome.status, 0) << tool;
-    EXPECT_EQ(outcome.output, std::string(tool) + " of hovercraft_sim 0.2.0, physics version 1\n");
+    EXPECT_EQ(outcome.output, std::string(tool) + " of hovercraft_sim 0.2.0, physics version 2\n");
   }
 }
 

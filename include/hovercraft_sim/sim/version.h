@@ -17,7 +17,7 @@ constexpr std::int64_t kPhysicsVersion = 2;
 /// Of what toSnapshot() writes; a snapshot without one has format 1.
 constexpr std::int64_t kSnapshotFormat = 2;
 
-/// What programs answer to --version: "NAME of hovercraft_sim 0.2.0, physics version 1".
+/// What programs answer to --version: "NAME of hovercraft_sim 0.2.0, physics version 2".
 HOVERCRAFT_PUBLIC std::string versionText(const std::string& program);
 
 }  // namespace hovercraft
