@@ -237,9 +237,8 @@ std::string kindYaml(const ActuatorScenario& actuator) {
           "{}{}, thrust_coefficients: {}, torque_coefficients: {}, ",
           yamlVector(motion.direction), yamlNumber(motion.min_thrust),
           yamlNumber(motion.max_thrust), yamlNumber(actuator.diameter),
-          yamlNumber(actuator.air_density), rotationName(motion.rotor),
-          ofRotor(motion.rotor), yamlVector(actuator.thrust_coefficients),
-          yamlVector(actuator.torque_coefficients));
+          yamlNumber(actuator.air_density), rotationName(motion.rotor), ofRotor(motion.rotor),
+          yamlVector(actuator.thrust_coefficients), yamlVector(actuator.torque_coefficients));
     case ActuatorKind::kRudder: {
       const std::string fan =
           actuator.fan.empty() ? ""

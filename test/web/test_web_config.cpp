@@ -49,7 +49,7 @@ TEST(WebConfig, WhatIsWrongIsNamedAndATokenIsNotSaid) {
   EXPECT_NE(refusal("{port: -1}").find("must be 0 to 65535"), std::string::npos);
   EXPECT_NE(refusal("{rate: 0.5}").find("must be 1 to 60 Hz"), std::string::npos);
   EXPECT_NE(refusal("{viewers: 0}").find("must be 1 to 64"), std::string::npos);
-  EXPECT_NE(refusal("{adress: x}").find("adress"), std::string::npos);
+  EXPECT_NE(refusal("{colour: red}").find("colour"), std::string::npos);
   EXPECT_NE(refusal("{hosts: 'a.example:80'}").find("without ports"), std::string::npos);
   const std::string token = refusal("{token: secret}");
   EXPECT_NE(token.find("16 to 128"), std::string::npos);
