@@ -13,13 +13,13 @@ namespace {
 /// thick.
 constexpr double kSharpestBend = 0.5;
 
-using Point = std::array<double, 2>;
+using WallPoint = std::array<double, 2>;
 
-Point minus(const Point& a, const Point& b) {
+WallPoint minus(const WallPoint& a, const WallPoint& b) {
   return {a[0] - b[0], a[1] - b[1]};
 }
 
-double dot(const Point& a, const Point& b) {
+double dot(const WallPoint& a, const WallPoint& b) {
   return a[0] * b[0] + a[1] * b[1];
 }
 
@@ -28,19 +28,19 @@ class Outline {
  public:
   explicit Outline(const WallShape& wall) : wall_(wall), count_(wall.points.size()) {
     for (std::size_t i = 0; i < parts(); ++i) {
-      const Point along = minus(at(i + 1), at(i));
+      const WallPoint along = minus(at(i + 1), at(i));
       const double length = std::sqrt(dot(along, along));
       directions_.push_back({along[0] / length, along[1] / length});
     }
     for (std::size_t i = 0; i < count_; ++i) {
       const bool is_first = !wall.closed && i == 0;
       const bool is_last = !wall.closed && i + 1 == count_;
-      const Point& in = directions_[is_first ? 0 : (i + parts() - 1) % parts()];
-      const Point& out = directions_[is_last ? i - 1 : i];
+      const WallPoint& in = directions_[is_first ? 0 : (i + parts() - 1) % parts()];
+      const WallPoint& out = directions_[is_last ? i - 1 : i];
       bends_.push_back(1.0 + dot(in, out));
       // (n_in + n_out) / (1 + n_in · n_out), n to the left.
       const double half = 0.5 * wall.thickness / bends_.back();
-      const Point across = {-half * (in[1] + out[1]), half * (in[0] + out[0])};
+      const WallPoint across = {-half * (in[1] + out[1]), half * (in[0] + out[0])};
       left_.push_back({at(i)[0] + across[0], at(i)[1] + across[1]});
       right_.push_back({at(i)[0] - across[0], at(i)[1] - across[1]});
     }
@@ -48,8 +48,8 @@ class Outline {
 
   std::size_t parts() const { return wall_.closed ? count_ : count_ - 1; }
   double bend(std::size_t i) const { return bends_[i]; }
-  const Point& left(std::size_t i) const { return left_[i % count_]; }
-  const Point& right(std::size_t i) const { return right_[i % count_]; }
+  const WallPoint& left(std::size_t i) const { return left_[i % count_]; }
+  const WallPoint& right(std::size_t i) const { return right_[i % count_]; }
   /// Whether both sides of a part go forward.
   bool isWhole(std::size_t part) const {
     return dot(minus(left(part + 1), left(part)), directions_[part]) > 0.0 &&
@@ -57,14 +57,14 @@ class Outline {
   }
 
  private:
-  const Point& at(std::size_t i) const { return wall_.points[i % count_]; }
+  const WallPoint& at(std::size_t i) const { return wall_.points[i % count_]; }
 
   const WallShape& wall_;
   std::size_t count_;
-  std::vector<Point> directions_;
+  std::vector<WallPoint> directions_;
   std::vector<double> bends_;
-  std::vector<Point> left_;
-  std::vector<Point> right_;
+  std::vector<WallPoint> left_;
+  std::vector<WallPoint> right_;
 };
 
 }  // namespace
@@ -102,7 +102,7 @@ WallShape parseWall(const ConfigReader& reader) {
 
 std::string wallText(const WallShape& wall) {
   std::string text = "wall: {points: [";
-  for (const Point& p : wall.points) {
+  for (const WallPoint& p : wall.points) {
     text += fmt::format("{}[{}, {}]", text.back() == '[' ? "" : ", ", yamlNumber(p[0]),
                         yamlNumber(p[1]));
   }
@@ -118,7 +118,7 @@ std::vector<PointsShape> straightParts(const WallShape& wall) {
   for (std::size_t i = 0; i < outline.parts(); ++i) {
     PointsShape part;
     for (const double z : {-0.5 * wall.height, 0.5 * wall.height}) {
-      for (const Point& p :
+      for (const WallPoint& p :
            {outline.left(i), outline.left(i + 1), outline.right(i + 1), outline.right(i)}) {
         part.points.emplace_back(p[0], p[1], z);
       }

@@ -87,7 +87,7 @@ void Island::strike(double now) {
   slowBounces();
   s_.impact.resolve(s_.solver, s_.impact_points, slowApproach());
   for (const ImpactPoint& point : s_.impact_points) {
-    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point);
+    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, scene_, s_.members);
   }
   report(now);
 }
