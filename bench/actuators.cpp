@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -132,10 +133,15 @@ void compareAll() {
 }  // namespace hovercraft::bench
 
 int main(int argc, char** argv) {
-  if (argc == 3) {
-    hovercraft::bench::Run(argv[1]).steps(std::atoi(argv[2]));
-    return 0;
+  try {
+    if (argc == 3) {
+      hovercraft::bench::Run(argv[1]).steps(static_cast<int>(std::strtol(argv[2], nullptr, 10)));
+    } else {
+      hovercraft::bench::compareAll();
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "bench_actuators: " << error.what() << '\n';
+    return 1;
   }
-  hovercraft::bench::compareAll();
   return 0;
 }

@@ -50,12 +50,13 @@ bool FeatureWalk::moveVertex(int side) {
 }
 
 FeatureWalk::End FeatureWalk::run(std::int32_t patience) {
-  const auto bound =
+  const auto most =
       static_cast<std::int32_t>(64 + 4 * (body_[0]->edges.size() + body_[1]->edges.size()));
+  const bool is_patient = patience == 0 || patience >= most;
+  const std::int32_t bound = is_patient ? most : patience;
   std::array<Feature, 2> mark = feature_;  // Brent's search for a cycle
   std::int32_t next_mark = 2;
   for (std::int32_t i = 1; i <= bound; ++i) {
-    if (patience > 0 && i > patience) return End::kImpatient;
     ++steps_;
     const Outcome outcome = step();
     if (outcome == Outcome::kClosest) return End::kClosest;
@@ -68,7 +69,7 @@ FeatureWalk::End FeatureWalk::run(std::int32_t patience) {
       next_mark *= 2;
     }
   }
-  return End::kStepLimit;
+  return is_patient ? End::kStepLimit : End::kImpatient;
 }
 
 FeatureWalk::Outcome FeatureWalk::step() {

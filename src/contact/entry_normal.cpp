@@ -72,8 +72,8 @@ class EntrySearch {
  public:
   EntrySearch(const MovingHull& A, const MovingHull& B, const ClosestFeatures& closest,
               const ContactManifold& manifold)
-      : A_(A),
-        B_(B),
+      : a_(A),
+        b_(B),
         manifold_(manifold),
         start_A_(vertexOf(A.hull, closest.feature_a)),
         start_B_(vertexOf(B.hull, closest.feature_b)),
@@ -94,10 +94,10 @@ class EntrySearch {
 
  private:
   double gapAlong(const Vector3& m) const {
-    const int a = A_.hull.supportVertexFrom(start_A_, transposeTimes(A_.X_WB.R_AB, m));
-    const int b = B_.hull.supportVertexFrom(start_B_, transposeTimes(B_.X_WB.R_AB, -m));
+    const int a = a_.hull.supportVertexFrom(start_A_, transposeTimes(a_.X_WB.R_AB, m));
+    const int b = b_.hull.supportVertexFrom(start_B_, transposeTimes(b_.X_WB.R_AB, -m));
     return dot(
-        m, Vector3(transform(B_.X_WB, B_.hull.vertex(b)) - transform(A_.X_WB, A_.hull.vertex(a))));
+        m, Vector3(transform(b_.X_WB, b_.hull.vertex(b)) - transform(a_.X_WB, a_.hull.vertex(a))));
   }
 
   /// s; infinite where no point of the contact closes.
@@ -105,15 +105,15 @@ class EntrySearch {
     double closing = 0.0;
     for (int i = 0; i < manifold_.count; ++i) {
       const Vector3& p_WC = manifold_.points[at(i)].p_WC;
-      const Vector3 v = velocityOfPoint(B_.twist, p_WC, B_.X_WB.p_AB) -
-                        velocityOfPoint(A_.twist, p_WC, A_.X_WB.p_AB);
+      const Vector3 v = velocityOfPoint(b_.twist, p_WC, b_.X_WB.p_AB) -
+                        velocityOfPoint(a_.twist, p_WC, a_.X_WB.p_AB);
       closing = std::max(closing, -dot(m, v));
     }
     return closing > 0.0 ? along / closing : std::numeric_limits<double>::infinity();
   }
 
-  const MovingHull& A_;
-  const MovingHull& B_;
+  const MovingHull& a_;
+  const MovingHull& b_;
   const ContactManifold& manifold_;
   int start_A_;
   int start_B_;

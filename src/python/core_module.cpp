@@ -160,12 +160,12 @@ void commandOf(SteppedSimulation& self, std::size_t vehicle,
 
 void bindSimulation(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
-  py::class_<SavedState>(module, "Saved");
+  py::class_<SavedState>(module, "Saved").doc() = "What Simulation.save() returns.";
   py::class_<SteppedSimulation>(module, "Simulation")
       .def(py::init([](const HeldScenario& scenario, std::optional<std::int64_t> seed) {
-        const ScenarioPointer held = scenario.scenario();
+        ScenarioPointer held = scenario.scenario();  // another thread may set() meanwhile
         const py::gil_scoped_release release;
-        return std::make_unique<SteppedSimulation>(held, seed);
+        return std::make_unique<SteppedSimulation>(std::move(held), seed);
       }))
       .def("step",
            [](SteppedSimulation& self, std::int64_t count) {
@@ -222,6 +222,7 @@ using Table =
 
 CommandRows tableCommands(const SteppedSimulation& simulation, const std::vector<Table>& tables) {
   std::vector<CommandTable> read;
+  read.reserve(tables.size());
   for (const auto& [vehicle, names, times, values] : tables) {
     read.push_back({vehicle, names, times, values});
   }
@@ -251,27 +252,22 @@ struct ErrorRow {
   double relative_attitude;
 };
 
-py::dict comparisonOf(const py::tuple& a, const py::tuple& b, std::optional<double> tolerance,
-                      std::optional<double> attitude_tolerance, const std::string& matching,
-                      bool relative, bool from_start) {
-  hovercraft::CompareOptions options;
-  options.position_tolerance = tolerance;
-  options.attitude_tolerance = attitude_tolerance;
-  options.relative = relative;
-  options.from_start = from_start;
+hovercraft::SampleMatching matchingOf(const std::string& name) {
   static const std::map<std::string, hovercraft::SampleMatching> matchings = {
       {"exact", hovercraft::SampleMatching::kExact},
       {"common", hovercraft::SampleMatching::kCommon},
       {"interpolated", hovercraft::SampleMatching::kInterpolated}};
-  const auto found = matchings.find(matching);
+  const auto found = matchings.find(name);
   if (found == matchings.end()) {
-    throw std::invalid_argument("matching = " + matching +
-                                ": must be exact, common or interpolated");
+    throw std::invalid_argument("matching = " + name + ": must be exact, common or interpolated");
   }
-  options.matching = found->second;
-  const hovercraft::Comparison comparison =
-      compareTrajectories(trajectoryFrom(a), trajectoryFrom(b), options);
+  return found->second;
+}
+
+py::dict toPython(const hovercraft::Comparison& comparison,
+                  const hovercraft::CompareOptions& options) {
   std::vector<ErrorRow> rows;
+  rows.reserve(comparison.errors.size());
   for (const hovercraft::TrajectoryError& error : comparison.errors) {
     rows.push_back({1e-9 * static_cast<double>(error.time_ns), error.position, error.attitude,
                     error.relative_position, error.relative_attitude});
@@ -285,6 +281,18 @@ py::dict comparisonOf(const py::tuple& a, const py::tuple& b, std::optional<doub
   result["errors"] = arrayOf(rows);
   result["text"] = toText(comparison, options);
   return result;
+}
+
+py::dict comparisonOf(const py::tuple& a, const py::tuple& b, std::optional<double> tolerance,
+                      std::optional<double> attitude_tolerance, const std::string& matching,
+                      bool relative, bool from_start) {
+  hovercraft::CompareOptions options;
+  options.position_tolerance = tolerance;
+  options.attitude_tolerance = attitude_tolerance;
+  options.relative = relative;
+  options.from_start = from_start;
+  options.matching = matchingOf(matching);
+  return toPython(compareTrajectories(trajectoryFrom(a), trajectoryFrom(b), options), options);
 }
 
 std::string closestJson(const std::string& a, const std::string& b,

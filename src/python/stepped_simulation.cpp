@@ -269,6 +269,7 @@ std::int64_t SteppedSimulation::seed() {
 std::vector<StateRow> SteppedSimulation::states() {
   const Lock lock(*this);
   std::vector<StateRow> rows;
+  rows.reserve(simulation_.state().bodies.size());
   for (std::size_t body = 0; body < simulation_.state().bodies.size(); ++body) {
     rows.push_back(stateRow(simulation_, body));
   }

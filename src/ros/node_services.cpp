@@ -68,6 +68,12 @@ void step(HovercraftNode& node, const hovercraft_sim::Step::Request& request) {
 NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode& node)
     : node_(node) {
   ros::NodeHandle own(private_handle);
+  serveTime(own);
+  serveEvents(own);
+  serveStates(own);
+}
+
+void NodeServices::serveTime(ros::NodeHandle& own) {
   servers_.push_back(serve<std_srvs::Trigger>(
       node_, own, "pause", [this](const auto& /*request*/, auto& /*response*/) { node_.pause(); }));
   servers_.push_back(serve<std_srvs::Trigger>(
@@ -78,13 +84,20 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
         step(node_, request);
         tellTickAndHash(node_.liveRun(), response);
       }));
-  servers_.push_back(serve<hovercraft_sim::Reset>(
-      node_, own, "reset", [this](const auto& request, auto& response) {
-        const bool with_seed = request.with_seed != 0;
-        node_.apply(resetEvent(with_seed ? request.seed : node_.config().scenario.seed));
+  servers_.push_back(serve<hovercraft_sim::ScheduleCommands>(
+      node_, own, "schedule", [this](const auto& request, auto& response) {
+        const hovercraft::Tick tick = node_.liveRun().simulation().tick();
+        response.tick = static_cast<std::uint64_t>(tick);
         response.episode = node_.liveRun().episode();
-        response.hash = node_.liveRun().simulation().hash();
+        const NodeConfig& config = node_.config();
+        if (config.lockstep) {
+          response.control_period = static_cast<std::uint64_t>(config.control_period);
+        }
+        node_.schedule(scheduledCommands(config.scenario, request, response.episode, tick));
       }));
+}
+
+void NodeServices::serveEvents(ros::NodeHandle& own) {
   servers_.push_back(serve<hovercraft_sim::SetState>(
       node_, own, "set_state", [this](const auto& request, auto& response) {
         node_.apply(setStateEvent(node_.config().scenario, request));
@@ -109,16 +122,15 @@ NodeServices::NodeServices(const ros::NodeHandle& private_handle, HovercraftNode
         node_.apply(setActuatorEvent(node_.config().scenario, request));
         response.tick = static_cast<std::uint64_t>(node_.liveRun().simulation().tick());
       }));
-  servers_.push_back(serve<hovercraft_sim::ScheduleCommands>(
-      node_, own, "schedule", [this](const auto& request, auto& response) {
-        const hovercraft::Tick tick = node_.liveRun().simulation().tick();
-        response.tick = static_cast<std::uint64_t>(tick);
+}
+
+void NodeServices::serveStates(ros::NodeHandle& own) {
+  servers_.push_back(serve<hovercraft_sim::Reset>(
+      node_, own, "reset", [this](const auto& request, auto& response) {
+        const bool with_seed = request.with_seed != 0;
+        node_.apply(resetEvent(with_seed ? request.seed : node_.config().scenario.seed));
         response.episode = node_.liveRun().episode();
-        const NodeConfig& config = node_.config();
-        if (config.lockstep) {
-          response.control_period = static_cast<std::uint64_t>(config.control_period);
-        }
-        node_.schedule(scheduledCommands(config.scenario, request, response.episode, tick));
+        response.hash = node_.liveRun().simulation().hash();
       }));
   servers_.push_back(serve<hovercraft_sim::Snapshot>(
       node_, own, "save", [this](const auto& request, auto& response) {

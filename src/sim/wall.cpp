@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
-#include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
 namespace {

@@ -98,13 +98,10 @@ bool isGoodToken(std::string_view token) {
          });
 }
 
-Verdict verdictOn(const RequestHead& request, const AccessRules& rules) {
-  if (request.hosts.size() != 1 || request.origins.size() > 1) return Verdict::kBadRequest;
-  const std::string& host = request.hosts.front();
-  if (!isKnownHost(host, rules)) return Verdict::kWrongHost;
-  if (!request.origins.empty() && !isOwnOrigin(request.origins.front(), host)) {
-    return Verdict::kWrongOrigin;
-  }
+namespace {
+
+/// On a request whose host and origin are right.
+Verdict verdictOnTarget(const RequestHead& request, const AccessRules& rules) {
   const std::string_view target = request.target;
   const std::size_t mark = target.find('?');
   const std::string_view path = target.substr(0, mark);
@@ -119,6 +116,18 @@ Verdict verdictOn(const RequestHead& request, const AccessRules& rules) {
   if (path != "/" && path != "/report.js") return Verdict::kNotFound;
   if (!is_get && request.method != "HEAD") return Verdict::kWrongMethod;
   return path == "/" ? Verdict::kPage : Verdict::kScript;
+}
+
+}  // namespace
+
+Verdict verdictOn(const RequestHead& request, const AccessRules& rules) {
+  if (request.hosts.size() != 1 || request.origins.size() > 1) return Verdict::kBadRequest;
+  const std::string& host = request.hosts.front();
+  if (!isKnownHost(host, rules)) return Verdict::kWrongHost;
+  if (!request.origins.empty() && !isOwnOrigin(request.origins.front(), host)) {
+    return Verdict::kWrongOrigin;
+  }
+  return verdictOnTarget(request, rules);
 }
 
 }  // namespace hovercraft_ros

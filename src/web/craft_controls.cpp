@@ -38,6 +38,22 @@ int signOf(double value) {
   return value > 0.0 ? 1 : -1;
 }
 
+/// What a driver who asks for ahead or for a turn asks of each control. @param reach m, of the
+/// farthest one from the centre of mass.
+void setDirections(const std::vector<Effect>& effects, double reach,
+                   std::vector<CraftControl>& controls) {
+  const auto has_arm = [&](const Effect& effect) { return std::abs(effect.arm) > kHasArm * reach; };
+  const auto pushes = [](const Effect& effect) { return std::abs(effect.ahead) > kPushesAhead; };
+  const bool has_pure = std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) {
+    return pushes(effect) && !has_arm(effect);
+  });
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    const Effect& effect = effects[i];
+    if (pushes(effect) && !(has_pure && has_arm(effect))) controls[i].ahead = signOf(effect.ahead);
+    if (has_arm(effect)) controls[i].turn = signOf(effect.arm);
+  }
+}
+
 }  // namespace
 
 std::vector<CraftControl> controlsOf(const hovercraft::VehicleScenario& craft) {
@@ -74,16 +90,7 @@ std::vector<CraftControl> controlsOf(const hovercraft::VehicleScenario& craft) {
     const Vector3 lifts = Vector3::Zero();
     add(control, actuator.motion, is_rudder ? across : (control.holds ? lifts : along));
   }
-  const auto hasArm = [&](const Effect& effect) { return std::abs(effect.arm) > kHasArm * reach; };
-  const auto pushes = [](const Effect& effect) { return std::abs(effect.ahead) > kPushesAhead; };
-  const bool has_pure = std::any_of(effects.begin(), effects.end(), [&](const Effect& effect) {
-    return pushes(effect) && !hasArm(effect);
-  });
-  for (std::size_t i = 0; i < controls.size(); ++i) {
-    const Effect& effect = effects[i];
-    if (pushes(effect) && !(has_pure && hasArm(effect))) controls[i].ahead = signOf(effect.ahead);
-    if (hasArm(effect)) controls[i].turn = signOf(effect.arm);
-  }
+  setDirections(effects, reach, controls);
   return controls;
 }
 

@@ -33,8 +33,9 @@ ViewerConnection::ViewerConnection(beast::tcp_stream&& stream, WebServer& server
 void ViewerConnection::accept(const Request& request) {
   beast::error_code ignored;
   auto& socket = beast::get_lowest_layer(stream_).socket();
-  socket.set_option(boost::asio::socket_base::send_buffer_size(kSendBuffer), ignored);
-  socket.set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+  static_cast<void>(
+      socket.set_option(boost::asio::socket_base::send_buffer_size(kSendBuffer), ignored));
+  static_cast<void>(socket.set_option(boost::asio::ip::tcp::no_delay(true), ignored));
   beast::get_lowest_layer(stream_).expires_never();  // the stream has time-outs of its own
   stream_.set_option(websocket::stream_base::timeout{kHandshake, kSilence, true});
   stream_.read_message_max(kMostMessageBytes);

@@ -118,6 +118,7 @@ void WebNode::showSeats() {
 
 std::vector<Viewer> WebNode::viewers() const {
   std::vector<Viewer> viewers;
+  viewers.reserve(names_.size());
   for (const auto& [id, name] : names_) viewers.push_back({id, name});
   return viewers;
 }
@@ -166,7 +167,8 @@ void WebNode::act(ViewerId id, const DriveMessage& message) {
   const auto craft = craftNamed(message.craft);
   if (!craft) return noteTo(id, "there is no such craft");
   const std::vector<CraftControl>& controls = scene_->controls[*craft];
-  for (const auto& [name, level] : message.levels) {
+  for (const auto& demand : message.levels) {
+    const std::string& name = demand.first;
     const bool is_known =
         std::any_of(controls.begin(), controls.end(),
                     [&](const CraftControl& control) { return control.name == name; });

@@ -147,11 +147,11 @@ class RequestConnection : public std::enable_shared_from_this<RequestConnection>
       return;
     }
     response_ = responseTo(request_, verdict);
-    http::async_write(stream_, response_,
-                      [self = shared_from_this()](const beast::error_code&, std::size_t) {
-                        beast::error_code ignored;
-                        self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-                      });
+    http::async_write(
+        stream_, response_, [self = shared_from_this()](const beast::error_code&, std::size_t) {
+          beast::error_code ignored;
+          static_cast<void>(self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored));
+        });
   }
 
   beast::tcp_stream stream_;
@@ -241,7 +241,7 @@ void WebServer::dropStalled() {
 
 void WebServer::stop() {
   beast::error_code ignored;
-  acceptor_.close(ignored);
+  static_cast<void>(acceptor_.close(ignored));
   for (const auto& [id, viewer] : viewers_) viewer->drop();
 }
 

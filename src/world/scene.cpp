@@ -23,6 +23,38 @@ AxisAlignedBox boundsOf(const ConvexPolyhedron& hull, const Pose& pose) {
 
 }  // namespace
 
+Scene::Extent Scene::extentOf(const WorldBody& body) {
+  Extent extent;
+  const AxisAlignedBox box = boundsOf(*body.hull, Pose());
+  extent.center_B = 0.5 * (box.low + box.high);
+  extent.half_B = 0.5 * (box.high - box.low);
+  extent.radius = body.hull->data().radius;
+  const Matrix3 inverse_inertia = body.model.mobility.inverseInertia(Matrix3::Identity());
+  double sum = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) sum += inverse_inertia(i, j) * inverse_inertia(i, j);
+  }
+  extent.spin_per_L = std::sqrt(sum);
+  for (const Rotor& rotor : body.model.rotors) extent.rotors += rotor.most;
+  for (int i = 0; i < 3; ++i) {
+    // Points leave along an axis by turns about the other two.
+    const double others =
+        inverse_inertia((i + 1) % 3, (i + 1) % 3) + inverse_inertia((i + 2) % 3, (i + 2) % 3);
+    extent.turns[i] = others > 0.0 ? 1.0 : 0.0;
+  }
+  return extent;
+}
+
+std::vector<Scene::Side> Scene::sidesOf(const WorldObstacle& obstacle) {
+  std::vector<Side> sides;
+  if (obstacle.hull.faceCount() > kFewFaces) return sides;
+  for (const PolyhedronData::Face& face : obstacle.hull.data().faces) {
+    const Vector3 normal = times(obstacle.X_WO.R_AB, face.normal);
+    sides.push_back({normal, face.offset + dot(normal, obstacle.X_WO.p_AB)});
+  }
+  return sides;
+}
+
 Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
     : rules_(std::move(rules)), bodies_(std::move(bodies)), obstacles_(std::move(obstacles)) {
   const FloatingPointEnvironment environment;
@@ -32,34 +64,11 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
   if (!rules_.bodies_meet) return;
   for (const WorldBody& body : bodies_) {
     demand(body.hull.has_value(), "a body that meets others needs a hull");
-    Extent extent;
-    const AxisAlignedBox box = boundsOf(*body.hull, Pose());
-    extent.center_B = 0.5 * (box.low + box.high);
-    extent.half_B = 0.5 * (box.high - box.low);
-    extent.radius = body.hull->data().radius;
-    const Matrix3 inverse_inertia = body.model.mobility.inverseInertia(Matrix3::Identity());
-    double sum = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) sum += inverse_inertia(i, j) * inverse_inertia(i, j);
-    }
-    extent.spin_per_L = std::sqrt(sum);
-    for (const Rotor& rotor : body.model.rotors) extent.rotors += rotor.most;
-    for (int i = 0; i < 3; ++i) {
-      // Points leave along an axis by turns about the other two.
-      const double others =
-          inverse_inertia((i + 1) % 3, (i + 1) % 3) + inverse_inertia((i + 2) % 3, (i + 2) % 3);
-      extent.turns[i] = others > 0.0 ? 1.0 : 0.0;
-    }
-    extents_.push_back(extent);
+    extents_.push_back(extentOf(body));
   }
   for (const WorldObstacle& obstacle : obstacles_) {
     obstacle_boxes_.push_back(boundsOf(obstacle.hull, obstacle.X_WO));
-    std::vector<Side>& sides = obstacle_sides_.emplace_back();
-    if (obstacle.hull.faceCount() > kFewFaces) continue;
-    for (const PolyhedronData::Face& face : obstacle.hull.data().faces) {
-      const Vector3 normal = times(obstacle.X_WO.R_AB, face.normal);
-      sides.push_back({normal, face.offset + dot(normal, obstacle.X_WO.p_AB)});
-    }
+    obstacle_sides_.push_back(sidesOf(obstacle));
   }
 }
 

@@ -130,7 +130,7 @@ TEST(Rotors, ACraftNutatesWithTheRateOfTheHeavyTop) {
   auto body = model.mobility.stateOfMotion(Vector3::Zero(), Quaternion{1.0, Vector3::Zero()},
                                            {Vector3::Zero(), {kPush, 0.0, 0.0}},
                                            rotorMomentum(model.rotors, course.start));
-  const auto rateNow = [&] {
+  const auto rate_now = [&] {
     const Matrix3 R_WB = rotationMatrix(body.orientation);
     return model.angularVelocityInBody(body.angular_momentum_W, R_WB, course.end);
   };
@@ -138,18 +138,18 @@ TEST(Rotors, ACraftNutatesWithTheRateOfTheHeavyTop) {
   const int steps = 4000;
   for (int n = 0; n < steps; ++n) {
     if (n == steps / 4) {
-      EXPECT_NEAR(rateNow().x() / kPush, 0.0, 1e-6);
-      EXPECT_NEAR(rateNow().y() / kPush, std::sqrt(kXx / kYy), 1e-6);
+      EXPECT_NEAR(rate_now().x() / kPush, 0.0, 1e-6);
+      EXPECT_NEAR(rate_now().y() / kPush, std::sqrt(kXx / kYy), 1e-6);
     }
     if (n == steps / 2) {
-      EXPECT_NEAR(rateNow().x() / kPush, -1.0, 1e-6);
+      EXPECT_NEAR(rate_now().x() / kPush, -1.0, 1e-6);
     }
     body = integrationStep(Integrator::kRungeKutta4, body, DrivenBody{model, course, {}},
                            period / steps);
   }
-  EXPECT_NEAR(rateNow().x() / kPush, 1.0, 1e-6);
-  EXPECT_NEAR(rateNow().y() / kPush, 0.0, 1e-6);
-  EXPECT_NEAR(rateNow().z() / kPush, 0.0, 1e-3);
+  EXPECT_NEAR(rate_now().x() / kPush, 1.0, 1e-6);
+  EXPECT_NEAR(rate_now().y() / kPush, 0.0, 1e-6);
+  EXPECT_NEAR(rate_now().z() / kPush, 0.0, 1e-3);
 }
 
 RigidBodyState<Quaternion> flownWithRotors(Integrator integrator, int steps) {

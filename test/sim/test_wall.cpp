@@ -104,15 +104,15 @@ TEST(Wall, IsMitredWhereItBends) {
   wall.height = 1.0;
   const auto parts = straightParts(wall);
   ASSERT_EQ(parts.size(), 2U);
-  const auto expectPoints = [](const PointsShape& part, const std::vector<Vector3>& corners) {
+  const auto expect_points = [](const PointsShape& part, const std::vector<Vector3>& corners) {
     ASSERT_EQ(part.points.size(), 8U);
     for (std::size_t i = 0; i < 4; ++i) {
       EXPECT_LT(norm(part.points[i] - (corners[i] - Vector3(0.0, 0.0, 0.5))), 1e-15);
       EXPECT_LT(norm(part.points[i + 4] - (corners[i] + Vector3(0.0, 0.0, 0.5))), 1e-15);
     }
   };
-  expectPoints(parts[0], {{0.0, 0.1, 0.0}, {1.9, 0.1, 0.0}, {2.1, -0.1, 0.0}, {0.0, -0.1, 0.0}});
-  expectPoints(parts[1], {{1.9, 0.1, 0.0}, {1.9, 3.0, 0.0}, {2.1, 3.0, 0.0}, {2.1, -0.1, 0.0}});
+  expect_points(parts[0], {{0.0, 0.1, 0.0}, {1.9, 0.1, 0.0}, {2.1, -0.1, 0.0}, {0.0, -0.1, 0.0}});
+  expect_points(parts[1], {{1.9, 0.1, 0.0}, {1.9, 3.0, 0.0}, {2.1, 3.0, 0.0}, {2.1, -0.1, 0.0}});
 }
 
 // Written and read again it is the same, and so is its motion.

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ Slide slideAlong(const SlideCase& run, int pieces) {
   }
   world.addBox(5.0, Vector3(0.6, 0.4, 0.12), run.p_WB, run.twist);
   world.watch = false;
-  world.step(static_cast<int>(1.0 / run.step + 0.5));
+  world.step(static_cast<int>(std::lround(1.0 / run.step)));
   return {world.state(0).p_WB, world.twist(0), world.records.size()};
 }
 

@@ -20,6 +20,10 @@ class HOVERCRAFT_PUBLIC NodeServices {
   NodeServices(const ros::NodeHandle& private_handle, HovercraftNode& node);
 
  private:
+  void serveTime(ros::NodeHandle& own);
+  void serveEvents(ros::NodeHandle& own);
+  void serveStates(ros::NodeHandle& own);
+
   HovercraftNode& node_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -99,17 +99,21 @@ class Scene {
     Vector3 turns = Vector3::Ones();  // 0 along an axis about which alone it can turn
   };
 
-  WorldRules rules_;
-  std::vector<WorldBody> bodies_;
-  std::vector<WorldObstacle> obstacles_;
-  std::vector<Extent> extents_;  // of each body, where bodies meet
-  std::vector<AxisAlignedBox> obstacle_boxes_;
-
   /// normal · x <= offset inside, in W.
   struct Side {
     Vector3 normal;
     double offset;  // m
   };
+
+  static Extent extentOf(const WorldBody& body);
+  /// None of a hull of more than a few faces.
+  static std::vector<Side> sidesOf(const WorldObstacle& obstacle);
+
+  WorldRules rules_;
+  std::vector<WorldBody> bodies_;
+  std::vector<WorldObstacle> obstacles_;
+  std::vector<Extent> extents_;  // of each body, where bodies meet
+  std::vector<AxisAlignedBox> obstacle_boxes_;
   std::vector<std::vector<Side>> obstacle_sides_;  // none of those of many faces
 };
 
