@@ -74,7 +74,7 @@ def compare(a, b, tolerance=None, attitude_tolerance=None, matching="exact", rel
     second = _pick(_trajectories(b, "b"), vehicle, "b")
     tolerances = [None if value is None else _convert.number(value, name)
                   for name, value in (("tolerance", tolerance), ("attitude_tolerance", attitude_tolerance))]
-    return _core.compare(first, second, *tolerances, matching, bool(relative), bool(from_start))
+    return _core.compare(first, second, tolerances, matching, bool(relative), bool(from_start))
 
 
 def _scale(scale):

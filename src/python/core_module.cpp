@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -283,12 +284,13 @@ py::dict toPython(const hovercraft::Comparison& comparison,
   return result;
 }
 
-py::dict comparisonOf(const py::tuple& a, const py::tuple& b, std::optional<double> tolerance,
-                      std::optional<double> attitude_tolerance, const std::string& matching,
-                      bool relative, bool from_start) {
+/// @param tolerances m and rad, of position and attitude.
+py::dict comparisonOf(const py::tuple& a, const py::tuple& b,
+                      const std::array<std::optional<double>, 2>& tolerances,
+                      const std::string& matching, bool relative, bool from_start) {
   hovercraft::CompareOptions options;
-  options.position_tolerance = tolerance;
-  options.attitude_tolerance = attitude_tolerance;
+  options.position_tolerance = tolerances[0];
+  options.attitude_tolerance = tolerances[1];
   options.relative = relative;
   options.from_start = from_start;
   options.matching = matchingOf(matching);
