@@ -49,25 +49,45 @@ bool FeatureWalk::moveVertex(int side) {
   return true;
 }
 
+namespace {
+
+/// Brent's search for a cycle: the walk is back where it was at a mark, which moves on at each step
+/// whose number is a power of two.
+class CycleSearch {
+ public:
+  explicit CycleSearch(const std::array<Feature, 2>& start) : mark_(start) {}
+
+  bool isBack(const std::array<Feature, 2>& features) const { return features == mark_; }
+
+  void goOn(const std::array<Feature, 2>& features) {
+    if (++step_ < next_) return;
+    mark_ = features;
+    next_ *= 2;
+  }
+
+ private:
+  std::array<Feature, 2> mark_;
+  std::int32_t step_ = 0;
+  std::int32_t next_ = 2;
+};
+
+}  // namespace
+
 FeatureWalk::End FeatureWalk::run(std::int32_t patience) {
   const auto most =
       static_cast<std::int32_t>(64 + 4 * (body_[0]->edges.size() + body_[1]->edges.size()));
   const bool is_patient = patience == 0 || patience >= most;
   const std::int32_t bound = is_patient ? most : patience;
-  std::array<Feature, 2> mark = feature_;  // Brent's search for a cycle
-  std::int32_t next_mark = 2;
+  CycleSearch search(feature_);
   for (std::int32_t i = 1; i <= bound; ++i) {
     ++steps_;
     const Outcome outcome = step();
     if (outcome == Outcome::kClosest) return End::kClosest;
     if (outcome == Outcome::kOverlap) return End::kOverlap;
-    const bool cycle = outcome == Outcome::kMoved && feature_ == mark;
+    const bool cycle = outcome == Outcome::kMoved && search.isBack(feature_);
     if (cycle && precise_) return End::kStepLimit;
     if (cycle || outcome == Outcome::kUncertain) precise_ = true;
-    if (i == next_mark) {
-      mark = feature_;
-      next_mark *= 2;
-    }
+    search.goOn(feature_);
   }
   return is_patient ? End::kStepLimit : End::kImpatient;
 }

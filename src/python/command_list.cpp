@@ -9,6 +9,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_python {
@@ -47,7 +48,7 @@ std::vector<std::size_t> idsOf(const CommandTable& table,
 }
 
 void append(std::vector<Command>& commands, const CommandTable& table, const Scenario& scenario) {
-  const std::size_t vehicle = vehicleIndex(scenario, table.vehicle);
+  const std::size_t vehicle = craftIndex(scenario, table.vehicle);
   const std::vector<std::size_t> ids = idsOf(table, scenario.vehicles[vehicle]);
   if (table.values.size() != table.times.size() * ids.size()) {
     throw std::invalid_argument("commands: each column must be as long as time");
@@ -87,15 +88,9 @@ std::optional<Command> CommandList::next() {
   return commands_[next_++];
 }
 
-std::size_t vehicleIndex(const Scenario& scenario, const std::string& name) {
+std::size_t craftIndex(const Scenario& scenario, const std::string& name) {
   if (name.empty() && scenario.vehicles.size() == 1) return 0;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
-    if (scenario.vehicles[i].name == name) return i;
-    names.push_back(scenario.vehicles[i].name);
-  }
-  throw std::invalid_argument(
-      fmt::format("vehicle = {}: must be one of: {}", name, fmt::join(names, ", ")));
+  return vehicleIndex(scenario, name);
 }
 
 std::int64_t nanosecondsOf(const std::string& what, double seconds) {

@@ -92,7 +92,7 @@ py::list sensorsOf(const hovercraft::VehicleScenario& craft) {
 std::pair<double, double> limitsOf(const HeldScenario& self, const std::string& vehicle,
                                    const std::string& actuator) {
   const auto& vehicles = self.scenario()->vehicles;
-  const hovercraft::VehicleScenario& craft = vehicles[vehicleIndex(*self.scenario(), vehicle)];
+  const hovercraft::VehicleScenario& craft = vehicles[craftIndex(*self.scenario(), vehicle)];
   const auto parameters = parametersOf(craft);
   for (std::size_t id = 0; id < parameters.size(); ++id) {
     if (actuatorName(craft, id) == actuator) {

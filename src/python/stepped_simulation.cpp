@@ -156,7 +156,7 @@ void SteppedSimulation::command(hovercraft::Command command) {
 void SteppedSimulation::applyWrench(const std::string& vehicle, const PushedWrench& wrench) {
   using Frame = hovercraft::ExternalWrench::Frame;
   const Lock lock(*this);
-  const std::size_t index = vehicleIndex(*scenario_, vehicle);
+  const std::size_t index = craftIndex(*scenario_, vehicle);
   const hovercraft::Wrench acting = {finite(wrench.force, "force"),
                                      finite(wrench.torque, "torque")};
   require(wrench.frame == "world" || wrench.frame == "body",
@@ -173,7 +173,7 @@ void SteppedSimulation::applyWrench(const std::string& vehicle, const PushedWren
 void SteppedSimulation::setMotion(const std::string& vehicle, const SetMotion& motion) {
   const hovercraft::FloatingPointEnvironment environment;
   const Lock lock(*this);
-  const std::size_t index = vehicleIndex(*scenario_, vehicle);
+  const std::size_t index = craftIndex(*scenario_, vehicle);
   const Vector3 p_WB = finite(motion.position, "position");
   const hovercraft::Twist twist = {finite(motion.velocity, "velocity"),
                                    finite(motion.angular_velocity, "angular_velocity")};

@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 
 namespace hovercraft_ros {
 

@@ -16,6 +16,7 @@
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/recorded_messages.h"
 #include "hovercraft_sim/ros/run_events.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 namespace hovercraft_ros {

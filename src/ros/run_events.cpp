@@ -10,6 +10,7 @@
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
@@ -56,16 +57,6 @@ std::size_t actuatorIndex(const hovercraft::VehicleScenario& craft, const std::s
 }
 
 }  // namespace
-
-std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string& name) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
-    if (scenario.vehicles[i].name == name) return i;
-    names.push_back(scenario.vehicles[i].name);
-  }
-  throw std::invalid_argument(
-      fmt::format("vehicle = {}: must be one of: {}", name, fmt::join(names, ", ")));
-}
 
 bool isWind(const RunEvent& event) {
   const auto& wind = event.values;

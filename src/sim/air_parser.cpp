@@ -162,9 +162,7 @@ std::string polarYaml(const VehicleScenario& vehicle) {
 }
 
 std::vector<std::string> bodyNames(const Scenario& scenario) {
-  std::vector<std::string> names;
-  names.reserve(scenario.vehicles.size() + (scenario.world ? scenario.world->bodies.size() : 0));
-  for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  std::vector<std::string> names = vehicleNames(scenario);
   if (!scenario.world) return names;
   for (const VehicleScenario& body : scenario.world->bodies) names.push_back(body.name);
   return names;

@@ -1,8 +1,11 @@
 #include "hovercraft_sim/sim/scenario_names.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
 
 #include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft {
 namespace {
@@ -52,6 +55,23 @@ const std::vector<std::string>& sensorKindNames() {
 const std::vector<std::string>& frameNames() {
   static const std::vector<std::string> names = {"world", "body"};
   return names;
+}
+
+std::vector<std::string> vehicleNames(const Scenario& scenario) {
+  std::vector<std::string> names;
+  names.reserve(scenario.vehicles.size());
+  for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  return names;
+}
+
+std::size_t vehicleIndex(const Scenario& scenario, const std::string& name) {
+  const std::vector<std::string> names = vehicleNames(scenario);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument(
+        fmt::format("vehicle = {}: must be one of: {}", name, fmt::join(names, ", ")));
+  }
+  return static_cast<std::size_t>(found - names.begin());
 }
 
 bool isGraphName(const std::string& name) {

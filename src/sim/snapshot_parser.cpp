@@ -140,11 +140,8 @@ void parseVehicle(const ConfigReader& reader, const Scenario& scenario,
 }
 
 std::size_t parseVehicleName(const ConfigReader& reader, const Scenario& scenario) {
-  std::vector<std::string> names;
-  names.reserve(scenario.vehicles.size());
-  for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
   reader.text("vehicle");  // it must be there
-  return reader.choiceOr(0, "vehicle", names);
+  return reader.choiceOr(0, "vehicle", vehicleNames(scenario));
 }
 
 void parseCommandedActuators(const ConfigReader& reader, const VehicleScenario& vehicle,

@@ -1,5 +1,6 @@
 #include "hovercraft_sim/sim/wall.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -35,11 +36,13 @@ class Outline {
     for (std::size_t i = 0; i < count_; ++i) {
       const bool is_first = !wall.closed && i == 0;
       const bool is_last = !wall.closed && i + 1 == count_;
-      const WallPoint& in = directions_[is_first ? 0 : (i + parts() - 1) % parts()];
-      const WallPoint& out = directions_[is_last ? i - 1 : i];
+      const WallPoint& before = i == 0 ? directions_.back() : directions_[i - 1];
+      const WallPoint& in = is_first ? directions_.front() : before;
+      const WallPoint& out = is_last ? directions_.back() : directions_[i];
       bends_.push_back(1.0 + dot(in, out));
       // (n_in + n_out) / (1 + n_in · n_out), n to the left.
-      const double half = 0.5 * wall.thickness / bends_.back();
+      // A sharper bend is refused, whatever its sides are.
+      const double half = 0.5 * wall.thickness / std::max(bends_.back(), kSharpestBend);
       const WallPoint across = {-half * (in[1] + out[1]), half * (in[0] + out[0])};
       left_.push_back({at(i)[0] + across[0], at(i)[1] + across[1]});
       right_.push_back({at(i)[0] - across[0], at(i)[1] - across[1]});
@@ -86,7 +89,8 @@ WallShape parseWall(const ConfigReader& reader) {
   const std::size_t parts = wall.points.size() - (wall.closed ? 0 : 1);
   for (std::size_t i = 0; i < parts; ++i) {
     const std::size_t next = (i + 1) % wall.points.size();
-    if (wall.points[i] == wall.points[next]) fail(next, "must not be where the one before it is");
+    const WallPoint along = minus(wall.points[next], wall.points[i]);
+    if (!(dot(along, along) > 0.0)) fail(next, "must not be where the one before it is");
   }
   const Outline outline(wall);
   for (std::size_t i = 0; i < wall.points.size(); ++i) {

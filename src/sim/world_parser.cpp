@@ -141,10 +141,7 @@ void requireName(const ConfigReader& reader, const std::string& name) {
 }
 
 void checkNames(const ConfigReader& reader, const Scenario& scenario) {
-  std::vector<std::string> names;
-  names.reserve(scenario.vehicles.size() + scenario.world->bodies.size() +
-                scenario.world->obstacles.size());
-  for (const VehicleScenario& vehicle : scenario.vehicles) names.push_back(vehicle.name);
+  std::vector<std::string> names = vehicleNames(scenario);
   for (const VehicleScenario& body : scenario.world->bodies) names.push_back(body.name);
   for (const ObstacleScenario& obstacle : scenario.world->obstacles) names.push_back(obstacle.name);
   std::sort(names.begin(), names.end());

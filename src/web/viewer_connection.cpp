@@ -31,11 +31,10 @@ ViewerConnection::ViewerConnection(beast::tcp_stream&& stream, WebServer& server
       rate_(WebServer::kMessagesPerSecond, WebServer::kMessageBurst) {}
 
 void ViewerConnection::accept(const Request& request) {
-  beast::error_code ignored;
+  beast::error_code gone;
   auto& socket = beast::get_lowest_layer(stream_).socket();
-  static_cast<void>(
-      socket.set_option(boost::asio::socket_base::send_buffer_size(kSendBuffer), ignored));
-  static_cast<void>(socket.set_option(boost::asio::ip::tcp::no_delay(true), ignored));
+  if (socket.set_option(boost::asio::socket_base::send_buffer_size(kSendBuffer), gone)) return;
+  if (socket.set_option(boost::asio::ip::tcp::no_delay(true), gone)) return;
   beast::get_lowest_layer(stream_).expires_never();  // the stream has time-outs of its own
   stream_.set_option(websocket::stream_base::timeout{kHandshake, kSilence, true});
   stream_.read_message_max(kMostMessageBytes);

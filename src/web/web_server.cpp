@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <ros/console.h>
+
 #include "hovercraft_sim/report/front_end.h"
 #include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/web/viewer_connection.h"
@@ -147,11 +149,13 @@ class RequestConnection : public std::enable_shared_from_this<RequestConnection>
       return;
     }
     response_ = responseTo(request_, verdict);
-    http::async_write(
-        stream_, response_, [self = shared_from_this()](const beast::error_code&, std::size_t) {
-          beast::error_code ignored;
-          static_cast<void>(self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored));
-        });
+    http::async_write(stream_, response_,
+                      [self = shared_from_this()](const beast::error_code&, std::size_t) {
+                        beast::error_code gone;
+                        tcp::socket& socket = self->stream_.socket();
+                        if (socket.shutdown(tcp::socket::shutdown_send, gone))
+                          self->stream_.close();
+                      });
   }
 
   beast::tcp_stream stream_;
@@ -240,8 +244,8 @@ void WebServer::dropStalled() {
 }
 
 void WebServer::stop() {
-  beast::error_code ignored;
-  static_cast<void>(acceptor_.close(ignored));
+  beast::error_code error;
+  if (acceptor_.close(error)) ROS_WARN_STREAM("the port stays open: " << error.message());
   for (const auto& [id, viewer] : viewers_) viewer->drop();
 }
 

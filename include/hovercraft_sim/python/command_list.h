@@ -33,7 +33,7 @@ struct CommandTable {
 
 /// @throws std::invalid_argument that names the vehicle and the rule: also if the name is empty
 /// and there are several.
-std::size_t vehicleIndex(const hovercraft::Scenario& scenario, const std::string& name);
+std::size_t craftIndex(const hovercraft::Scenario& scenario, const std::string& name);
 
 /// @returns seconds to whole nanoseconds, as the shortest text of the number would be read.
 /// @throws std::invalid_argument that names what it is, for a time that is not finite, negative or

@@ -24,10 +24,6 @@ namespace hovercraft_ros {
 constexpr std::uint8_t kSetWind = 5;
 constexpr std::uint8_t kSetActuator = 6;
 
-/// @throws std::invalid_argument with the names there are if `name` is none of them.
-HOVERCRAFT_PUBLIC std::size_t vehicleIndex(const hovercraft::Scenario& scenario,
-                                           const std::string& name);
-
 HOVERCRAFT_PUBLIC hovercraft_sim::RunEvent resetEvent(std::int64_t seed);
 
 /// @param snapshot as hovercraft::toSnapshot() wrote it; checked when the event is applied.

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "hovercraft_sim/math/export.h"
 
 namespace hovercraft {
+
+struct Scenario;
 
 /// The words of a scenario file, in the order of the enumerators of Integrator, OrientationKind and
 /// BodyModel.
@@ -21,6 +24,11 @@ HOVERCRAFT_PUBLIC const std::vector<std::string>& tfSourceNames();
 HOVERCRAFT_PUBLIC const std::vector<std::string>& sensorKindNames();
 /// The words for the frames of an external wrench, in the order of ExternalWrench::Frame.
 HOVERCRAFT_PUBLIC const std::vector<std::string>& frameNames();
+
+/// Of the craft, in their order.
+HOVERCRAFT_PUBLIC std::vector<std::string> vehicleNames(const Scenario& scenario);
+/// @throws std::invalid_argument with the names there are if `name` is none of them.
+HOVERCRAFT_PUBLIC std::size_t vehicleIndex(const Scenario& scenario, const std::string& name);
 
 /// A name that can be a ROS namespace and a tf prefix: a letter, then letters, digits and
 /// underscores.
