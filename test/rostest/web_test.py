@@ -10,7 +10,7 @@ import unittest
 
 import rospy
 import rostest
-from hovercraft_sim.msg import AppliedCommand, RunEvent, State
+from hovercraft_sim.msg import AppliedCommand, RunEvent, State, Telemetry
 
 from ros_waiting import DEADLINE, wait_for_connections, wait_until
 from web_client import BINARY, CLOSE, PING, Refused, Viewer, http
@@ -151,15 +151,19 @@ class WebTest(unittest.TestCase):
 
     # The run.
 
+    def tick_of_the_pause(self):
+        while True:
+            telemetry = rospy.wait_for_message('/hovercraft_sim/telemetry', Telemetry, timeout=30)
+            if telemetry.paused:
+                return telemetry.tick
+
     def test_pause_step_resume_reset_and_pace(self):
         other = self.viewer()
         self.first.send('pause', paused=True)
         other.wait('pace', lambda pace: pace['paused'])
         self.assertIn('paused the run', other.wait('note')['text'])
-        end = time.monotonic() + 0.5  # what was on its way has come
-        while time.monotonic() < end:
-            rospy.sleep(0.05)
-        tick = self.states[-1].tick
+        tick = self.tick_of_the_pause()
+        wait_until(lambda: self.states[-1].tick == tick, 'the last state before the pause')
         self.first.send('step', steps=50)
         wait_until(lambda: self.states[-1].tick == tick + 50, 'fifty steps')
         self.first.wait('state', lambda state: state['tick'] == tick + 50)
