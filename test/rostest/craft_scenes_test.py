@@ -3,7 +3,6 @@
 
 import math
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -15,15 +14,9 @@ from hovercraft_sim.msg import AppliedCommand, RunEvent, State
 from hovercraft_sim.srv import Step
 from std_msgs.msg import String
 
-from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
+from ros_waiting import run_tool, service, wait_for_connections, wait_until
 
 STEPS = 3000  # of 1 ms
-
-
-def run(*arguments):
-    done = subprocess.run(['rosrun', 'hovercraft_sim', *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          universal_newlines=True, timeout=DEADLINE)
-    return done.returncode, done.stdout
 
 
 class CraftScenesTest(unittest.TestCase):
@@ -45,7 +38,7 @@ class CraftScenesTest(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.bag = os.path.join(cls.folder.name, 'run.bag')
         config = os.path.join(rospkg.RosPack().get_path('hovercraft_sim'), 'config', cls.scene)
-        cls.simulated = run('simulate', config + '.yaml', '--commands', config + '.csv', '--hold', '--every', '10', '--output', cls.bag)
+        cls.simulated = run_tool('simulate', config + '.yaml', '--commands', config + '.csv', '--hold', '--every', '10', '--output', cls.bag)
 
     @classmethod
     def hear(cls, message, topic):
@@ -65,13 +58,13 @@ class CraftScenesTest(unittest.TestCase):
         with rosbag.Bag(path, 'w') as bag:
             for topic, message in list(self.order):
                 bag.write(topic, message, rospy.Time(1))
-        status, words = run('replay', path)
+        status, words = run_tool('replay', path)
         self.assertEqual(status, 0, words)
         self.assertIn('identical', words)
 
     def test_the_bag_of_simulate_replays(self):
         self.assertEqual(self.simulated[0], 0, self.simulated[1])
-        status, words = run('replay', self.bag)
+        status, words = run_tool('replay', self.bag)
         self.assertEqual(status, 0, words)
 
     def test_its_flight_is_that_of_its_closed_forms(self):

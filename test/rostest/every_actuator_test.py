@@ -3,7 +3,6 @@
 
 import csv
 import os
-import subprocess
 import tempfile
 import unittest
 
@@ -16,19 +15,13 @@ from hovercraft_sim.srv import SetActuator, Step
 from std_msgs.msg import Float32, Float64, String
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
+from ros_waiting import run_tool, service, wait_for_connections, wait_until
 
 CRAFT = '/hovercraft/'
 KINDS = {CRAFT + 'state': State, CRAFT + 'commands': AppliedCommand, '/hovercraft_sim/events': RunEvent,
          '/hovercraft_sim/scenario': String, CRAFT + 'actuators': ActuatorStatusArray}
 NAMES = ['bl', 'br', 'fl', 'fr', 'lift', 'tail']
 BROKEN = 1000  # ticks, when actuators break
-
-
-def run(*arguments):
-    done = subprocess.run(['rosrun', 'hovercraft_sim', *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          universal_newlines=True, timeout=DEADLINE)
-    return done.returncode, done.stdout
 
 
 class EveryActuatorTest(unittest.TestCase):
@@ -114,12 +107,12 @@ class EveryActuatorTest(unittest.TestCase):
         self.assertEqual(list(self.heard[CRAFT + 'state'][0].extra), [])
 
     def test_the_recording_replays_with_its_faults_only(self):
-        status, words = run('replay', self.recording())
+        status, words = run_tool('replay', self.recording())
         self.assertEqual(status, 0, words)
         self.assertIn('identical', words)
         event = next(event for event in self.heard['/hovercraft_sim/events'] if event.name == 'br')
         self.assertEqual((event.kind, event.vehicle, tuple(event.values)), (6, 'hovercraft', (0.5, 0.0)))
-        status, words = run('replay', self.recording(event))
+        status, words = run_tool('replay', self.recording(event))
         self.assertNotEqual(status, 0, words)
         self.assertIn('the bag lacks event', words)
 
@@ -127,9 +120,9 @@ class EveryActuatorTest(unittest.TestCase):
         scenario = os.path.join(rospkg.RosPack().get_path('hovercraft_sim'), 'test', 'rostest', 'every_actuator.yaml')
         live, again, rows = (os.path.join(self.folder.name, name) for name in ('whole.bag', 'again.bag', 'rows.csv'))
         os.rename(self.recording(), live)
-        status, words = run('simulate', scenario, '--commands', live, '--duration', '1', '--every', '10', '--output', again, '--actuators', rows)
+        status, words = run_tool('simulate', scenario, '--commands', live, '--duration', '1', '--every', '10', '--output', again, '--actuators', rows)
         self.assertEqual(status, 0, words)
-        status, words = run('compare', live, again, '--common')  # until something broke
+        status, words = run_tool('compare', live, again, '--common')  # until something broke
         self.assertEqual(status, 0, words)
         with open(rows) as file:
             table = [row for row in csv.DictReader(file) if row['time'] == '1']
@@ -137,7 +130,7 @@ class EveryActuatorTest(unittest.TestCase):
         for row, status in zip(table, self.status_at(BROKEN).values()):
             self.assertEqual((float(row['commanded']), float(row['applied'])), (status.commanded, status.applied))
             self.assertEqual((row['efficiency'], row['stuck'], row['timed_out']), ('1', '0', '0'))
-        status, words = run('replay', again)
+        status, words = run_tool('replay', again)
         self.assertEqual(status, 0, words)
 
     def test_rviz_shows_each(self):

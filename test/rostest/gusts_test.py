@@ -3,7 +3,6 @@
 
 import os
 import statistics
-import subprocess
 import tempfile
 import unittest
 
@@ -16,7 +15,7 @@ from hovercraft_sim.msg import AppliedCommand, RunEvent, State, ThrustCommand, W
 from hovercraft_sim.srv import SetWind, Snapshot, Step
 from std_msgs.msg import String
 
-from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
+from ros_waiting import run_tool, service, wait_for_connections, wait_until
 
 CRAFT = '/mvwt/'
 KINDS = {CRAFT + 'state': State, CRAFT + 'commands': AppliedCommand, '/hovercraft_sim/events': RunEvent,
@@ -27,12 +26,6 @@ STEPS = 2000  # of 1 ms, before ~set_wind and after it
 
 def numbers(vector):
     return vector.x, vector.y, vector.z
-
-
-def run(*arguments):
-    done = subprocess.run(['rosrun', 'hovercraft_sim', *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                          universal_newlines=True, timeout=DEADLINE)
-    return done.returncode, done.stdout
 
 
 def apparent_errors(wind, pose, twist):
@@ -87,7 +80,7 @@ class GustsTest(unittest.TestCase):
                 for topic, message in list(self.order):
                     if message is not without:
                         bag.write(topic, message, rospy.Time(1))
-            return run('replay', path)
+            return run_tool('replay', path)
 
     def test_the_wind_is_the_mean_and_gusts(self):
         winds = sorted(self.of('wind').items())
@@ -132,7 +125,7 @@ class GustsTest(unittest.TestCase):
         config = os.path.join(rospkg.RosPack().get_path('hovercraft_sim'), 'config', 'gusts')
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, 'run.bag')
-            status, words = run('simulate', config + '.yaml', '--commands', config + '.csv', '--output', path, '--every', '10')
+            status, words = run_tool('simulate', config + '.yaml', '--commands', config + '.csv', '--output', path, '--every', '10')
             self.assertEqual(status, 0, words)
             with rosbag.Bag(path) as bag:
                 heard = {topic: [message for _, message, _ in bag.read_messages(CRAFT + topic)] for topic in ('wind', 'pose', 'twist')}
@@ -142,7 +135,7 @@ class GustsTest(unittest.TestCase):
             self.assertGreater(len(heard['wind']), 900)
             # It drives into the wind, ahead: what comes from ahead has a negative x.
             self.assertLess(heard['wind'][500].apparent.x, -0.5)
-            status, words = run('replay', path)
+            status, words = run_tool('replay', path)
             self.assertEqual(status, 0, words)
             live, compared = self.of('wind'), 0
             for wind in heard['wind']:  # the same gusts, whoever steps

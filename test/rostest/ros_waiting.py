@@ -1,6 +1,7 @@
-"""What the Python rostests share: services of the node, and waiting on a condition with a deadline."""
+"""What the Python rostests share: services of the node, tools, and waiting on a condition with a deadline."""
 
 import os
+import subprocess
 import tempfile
 import threading
 import time
@@ -16,6 +17,13 @@ def service(name, kind):
     """A service of the node, once it is there."""
     rospy.wait_for_service('/hovercraft_sim/' + name, timeout=DEADLINE)
     return rospy.ServiceProxy('/hovercraft_sim/' + name, kind)
+
+
+def run_tool(*arguments):
+    """A program of the package and its arguments; its exit status and all that it said."""
+    done = subprocess.run(['rosrun', 'hovercraft_sim', *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          universal_newlines=True, timeout=DEADLINE)
+    return done.returncode, done.stdout
 
 
 def wait_until(condition, what):
