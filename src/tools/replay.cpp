@@ -32,7 +32,8 @@ int main(int argc, char** argv) {
           << "replay RUN.bag [--output OUT.bag] [--set KEY.PATH=VALUE ...]\n"
              "Runs again what a bag recorded and compares every state bit for bit.\n"
              "Exit status: 0 identical, 1 different or bad input, 2 not all can be checked, or\n"
-             "different from what an older physics version recorded: then with the largest error.\n\n"
+             "different from what an older physics version recorded: then with the largest "
+             "error.\n\n"
           << options;
       return 0;
     }
