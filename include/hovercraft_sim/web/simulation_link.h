@@ -91,7 +91,7 @@ class HOVERCRAFT_PUBLIC SimulationLink {
   bool ask(std::function<std::string()> call, Answer answer);
   void callServices();
   template <class Service>
-  std::string call(const char* name, Service& service) const;
+  HOVERCRAFT_HIDDEN std::string call(const char* name, Service& service) const;
 
   ros::NodeHandle handle_;
   std::string simulation_;
