@@ -327,8 +327,9 @@ def main():
     build = arguments.build.resolve()
 
     printed.check_reader()
-    tools = [path.name for path in (build / 'devel/lib/hovercraft_sim').iterdir()]
-    items = [item for document in printed_rules.DOCUMENTS for item in printed.read(document, printed_rules.TEXTS, tools)
+    tools = [path.name for path in (build / 'devel/lib/hovercraft_sim').iterdir()] + list(printed_rules.READERS_PROGRAMS)
+    items = [item for document in printed_rules.DOCUMENTS
+             for item in printed.read(document, printed_rules.TEXTS, tools, printed_rules.CHECKED_ELSEWHERE.get(document, ()))
              if item.section not in printed_rules.UNREAD_SECTIONS]
     unused = unused_rules(items)
     if unused:
