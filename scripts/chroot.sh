@@ -29,6 +29,8 @@ run_inside() {
   echo '127.0.0.1 localhost' > "$root/etc/hosts"
   apt-config dump | grep -iE '^Acquire::(https?::)?[^"]*Proxy|Check-(Valid-Until|Date)' \
     > "$root/etc/apt/apt.conf.d/99host" || true
+  # Nobody needs the tree after a power cut.
+  echo force-unsafe-io > "$root/etc/dpkg/dpkg.cfg.d/99host"
   git clone -q --no-hardlinks "$checkout" "$root/root/hovercraft_sim"
 
   local inside=(env -i HOME=/root LANG=C.UTF-8 PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
