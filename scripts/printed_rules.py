@@ -21,7 +21,7 @@ Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive the
 
 DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/reference.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md',
              'doc/sensors.md', 'doc/helm.md', 'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md', 'doc/accuracy.md', 'doc/tutorial.md', 'doc/cookbook.md',
-             'doc/web.md', 'doc/python.md', 'doc/identify.md')
+             'doc/web.md', 'doc/python.md', 'doc/identify.md', 'doc/install.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # Programs of a reader's own machine, which need not be here.
@@ -86,8 +86,11 @@ RULES = (
     Rule(r'cmake .* build_release -DCATKIN_ENABLE_TESTING=ON|cmake .* --target hovercraft_sim_test_math .*|build_release/.*/hovercraft_sim_test_math .*',
          skip=SCRIPTS_TEST),
     Rule(r'clang-format-14 -i .*|scripts/(fuzz|mutate) .*', skip=NAMED),
-    Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
+    Rule(r'sudo scripts/(try_in_chroot|determinism|package|check_package).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
+    # doc/install.md
+    Rule(r'sudo apt-get (install .*build/packages.*|purge .*)', skip='scripts/check_package does it in a bare Debian'),
+    Rule(r'scripts/(package|check_package) SUITE.*|new_package NAME FOLDER|.*rosrun\s+hovercraft_sim new_package', skip=NAMED),
     # doc/craft.md
     Rule(r'roslaunch hovercraft_sim sim\.launch scenario:=\$PWD/config/lift_fan\.yaml', beside=(), until='/hovercraft_sim/scenario', stays=True),
     Rule(r'rostopic pub -1 /rc5/actuators/lift .*', beside=('roslaunch hovercraft_sim sim.launch scenario:=$PWD/config/lift_fan.yaml',)),
