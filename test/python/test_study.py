@@ -154,7 +154,10 @@ class Designs(Folder):
 
     def test_sobol_has_one_run_in_each_box_of_equal_area(self):
         vary = {"vehicles.hovercraft.drag.linear[0]": {"uniform": {"min": 0, "max": 1}}, MASS: {"uniform": {"min": 4, "max": 5}}}
+        _, other = self.columns(design="sobol", runs=64, vary=vary, seed=6)
         _, rows = self.columns(design="sobol", runs=64, vary=vary)
+        self.assertFalse(np.any(rows[:, 2] == other[:, 2]))
+        self.assertGreater(rows[0, 2], 1e-6)  # not at the corner, as without a shift
         for split in (1, 4, 8, 16, 64):  # a (0, 6, 2)-net in base 2
             boxes = set(zip(np.floor(rows[:, 2] * split).astype(int), np.floor((rows[:, 3] - 4) * 64 // split).astype(int)))
             self.assertEqual(len(boxes), 64)
@@ -188,7 +191,7 @@ class Parser(Folder):
     def test_errors_name_key_and_rule(self):
         for changes, rule in (
                 ({"runs": 0}, "runs = 0: must be from 1"), ({"runs": 2.5}, "runs = 2.5: must be a whole number"), ({"runs": None}, "runs is missing"),
-                ({"duration": -1}, "duration = -1: must be greater than 0"), ({"duration": 0.00051}, "whole number of steps of 0.001 s"),
+                ({"duration": -1}, "duration = -1: must be greater than 0"), ({"duration": 1.005}, "duration = 1.005: must be a whole number of output periods of 0.01 s"), ({"duration": 0.00051}, "whole number of steps of 0.001 s"),
                 ({"metrics": None}, "metrics is missing"), ({"metrics": {}}, "metrics: must be a map"), ({"colour": 1}, "unknown key colour"),
                 ({"design": "halton"}, "design = halton: must be one of: random, latin, sobol, grid"),
                 ({"vary": {"vehicles.hovercraft.mas.s": {"choice": [1]}}}, r"study.yaml: vary: vehicles.hovercraft.mas.s: .*mas"),
@@ -254,10 +257,12 @@ class Flights(Folder):
                  "most": {"max": "applied.rear"}, "yaw": {"final": "yaw"}, "sway": {"final": "sway"}, "until": {"time_until": {"signal": "speed", "above": 0.1}},
                  "never": {"time_until": {"signal": "speed", "below": -1}}, "none": {"contacts": "all"}, "own": {"function": "study_functions:last_x"},
                  "line": {"tracking_error": {"path": [[0, 0], [0, 0], [9, 0]], "as": "max"}}}
-        plan = self.plan(metrics=named, vary=None, runs=1)
+        turned = [0, 0, 0.8]
+        plan = self.plan(metrics=named, vary={"vehicles.hovercraft.initial.rpy": {"choice": [turned]}}, runs=1)
         row = flight.Flyer(plan).row(design.draw(plan)[0])
-        found = dict(zip(named, (float(cell) if cell else None for cell in row[4:-1])))
-        run = hc.Simulation(hc.Scenario.load(BASE["scenario"]), seed=5).run(BASE["commands"], duration=1.0, every=10)
+        found = dict(zip(named, (float(cell) if cell else None for cell in row[5:-1])))
+        scenario = hc.Scenario.load(BASE["scenario"]).set("vehicles.hovercraft.initial.rpy", turned)
+        run = hc.Simulation(scenario, seed=5).run(BASE["commands"], duration=1.0, every=10)
         states = run.states["hovercraft"]
         yaw = 2.0 * np.arctan2(states["orientation"][:, 2], states["orientation"][:, 3])
         surge = np.cos(yaw) * states["velocity"][:, 0] + np.sin(yaw) * states["velocity"][:, 1]
@@ -270,6 +275,14 @@ class Flights(Folder):
         self.assertIsNone(found.pop("never"))
         for name, value in wanted.items():
             self.assertAlmostEqual(found[name], value, 12, name)
+
+    def test_metrics_of_the_end_alone_are_the_same_with_fewer_outputs(self):
+        few = self.plan(metrics={"x": {"final": "position.x"}, "up_to": {"final": "distance", "from": 0.5}}, runs=1)
+        self.assertEqual(few.every_of_metrics, 1000)
+        more = self.plan(metrics={"x": {"final": "position.x"}, "up_to": {"final": "distance", "from": 0.5}, "top": {"max": "speed"}}, runs=1)
+        self.assertEqual(more.every_of_metrics, 10)
+        rows = [flight.Flyer(plan).row(design.draw(plan)[0]) for plan in (few, more)]
+        self.assertEqual(rows[0][:-1], rows[1][:-2])
 
     def test_contacts_and_clearance_in_a_world(self):
         scenario = self.write("walled.yaml", """step_size: 0.001
@@ -346,7 +359,8 @@ class SameBytes(Folder):
             self.assertEqual(self.bytes_of("parts", name), self.bytes_of("one", name))
 
     def test_a_study_goes_on_where_it_was_broken_off(self):
-        path = self.study()
+        faulty = {**CONTROLLED, "controller": "study_functions:throws_in_a_heavy_craft"}
+        path = self.study(**faulty)
         whole = self.fly(path, "whole")
         status, _, told = self.main(path, "-o", self.folder + "/whole")
         self.assertEqual((status, "--resume" in told), (1, True))
@@ -354,9 +368,10 @@ class SameBytes(Folder):
         os.remove(self.folder + "/whole/runs.csv")
         lines = whole.splitlines(keepends=True)
         with open(self.folder + "/whole/runs.part.csv", "wb") as file:
-            file.write(lines[40] + lines[3] + lines[7] + lines[9][:20])
+            torn = next(line for line in lines if b"too heavy" in line)
+            file.write(lines[40] + lines[3] + lines[7] + torn[:-9])
         self.assertEqual(self.fly(path, "whole", "--resume"), whole)
-        self.study(runs=61)
+        self.study(**faulty, runs=61)
         status, _, told = self.main(path, "-o", self.folder + "/whole", "--resume")
         self.assertEqual((status, "another study" in told), (1, True))
 

@@ -1,4 +1,4 @@
-"""Flies the runs of a plan on the workers of Dask.distributed: its scheduler, its retries."""
+"""Flies the runs of a plan on the workers of Dask.distributed: its scheduler, which gives the work of a worker that died to another."""
 import itertools
 import threading
 
@@ -7,7 +7,6 @@ from .workers import died_row
 
 BATCH_LIMIT = 200      # runs of one task
 BATCHES_PER_THREAD = 8
-RETRIES = 3
 _own = threading.local()
 
 
@@ -49,16 +48,15 @@ def fly(plan, waiting, address, on_rows):
     except (OSError, ValueError) as error:
         raise ValueError(f"--scheduler {address}: {error}") from None
     with client:
-        versions = _checked(client, address)
+        _check_versions(client, address)
         threads = sum(client.nthreads().values())
         size = max(1, min(BATCH_LIMIT, len(waiting) // (BATCHES_PER_THREAD * max(1, threads))))
-        sent = client.submit(_plan, plan, pure=False, retries=RETRIES)
+        sent = client.submit(_plan, plan, pure=False)
         todo = [waiting[i:i + size] for i in range(0, len(waiting), size)]
         _gather(distributed, client, sent, todo, (plan, on_rows, 4 * threads))
-        del sent, versions
 
 
-def _checked(client, address):
+def _check_versions(client, address):
     try:
         client.wait_for_workers(1, timeout=60)
     except Exception as error:
@@ -67,7 +65,6 @@ def _checked(client, address):
     if set(versions.values()) != {_version()}:
         raise ValueError(f"--scheduler {address}: each worker must have {_version()}: " +
                          ", ".join(f"{worker} has {version}" for worker, version in sorted(versions.items())))
-    return versions
 
 
 def _gather(distributed, client, sent, todo, target):
@@ -77,7 +74,7 @@ def _gather(distributed, client, sent, todo, target):
     batches = {}
 
     def submit(batch):
-        future = client.submit(_fly, sent, batch, pure=False, retries=RETRIES)
+        future = client.submit(_fly, sent, batch, pure=False)
         batches[future] = batch
         return future
 

@@ -107,7 +107,7 @@ class Flyer:
     def row(self, cells):
         """The cells of the row of results. :param cells: JSON texts, of draw()."""
         try:
-            flight = self.fly(cells)
+            flight = self.fly(cells, self.plan.every_of_metrics)
             numbers = [metric.value(flight) for metric in self.plan.metrics]
             status, message, state_hash = "ok", "", flight.simulation.hash
         except Failure as failure:
@@ -119,8 +119,13 @@ class Flyer:
         shown = "" if state_hash is None else f"{state_hash:016x}"
         return [cells[0], cells[1], status, shown, *cells[2:], *("" if number is None else repr(number) for number in numbers), message]
 
-    def fly(self, cells):
-        """A Flight. :raises Failure: with the hash of the last state that there was, if there was one."""
+    def fly(self, cells, every=None):
+        """A Flight.
+
+        :param every: ticks between outputs; None: the plan's.
+        :raises Failure: with the hash of the last state that there was, if there was one.
+        """
+        every = every or self.plan.every
         values = dict(zip(self.plan.columns(), (json.loads(cell) for cell in cells)))
         simulation, held = self._simulation(values)
         start = simulation._core.save()
@@ -131,14 +136,14 @@ class Flyer:
             rows = loop.rows() if loop else rows
             simulation._core.restore(start)
             seconds = self.plan.last_tick * self.plan.step_ns / 1e9
-            result = simulation._core.run(rows, seconds, self.plan.every)
+            result = simulation._core.run(rows, seconds, every)
         except (Failure, ValueError) as error:
             failure = error if isinstance(error, Failure) else Failure("diverged", str(error))
             failure.hash = simulation.hash
             failure.origin = _Origin(held.yaml(), start, np.concatenate(loop.made) if loop else rows, simulation.tick, self.plan.every)
             raise failure from None
         flight = Flight(simulation, result, held, values, self.functions.__getitem__)
-        flight.origin_parts = (start, rows, simulation.tick, self.plan.every)
+        flight.origin_parts = (start, rows, simulation.tick, every)
         return flight
 
     def write_bag(self, cells, path):

@@ -51,6 +51,7 @@ class Metric:
                                  for key, default in (("from", 0), ("to", context.last_tick)))
         if self.last - self.last % context.every < self.first:
             raise place.error("from and to: an output must lie between them")
+        self.needs_end_alone = self.kind == "contacts" or self.kind == "final" and self.last == context.last_tick
         getattr(self, f"_read_{self.kind}", self._read_signal)(place.at(self.kind), context)
 
     def _read_signal(self, place, context):

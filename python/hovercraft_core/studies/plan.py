@@ -83,6 +83,7 @@ def _whole_steps(place, step_ns, most=1e6):
 class Plan:
     """A study that was read and checked.
 
+    `every_of_metrics`: where these need fewer outputs.
     `scenario`: YAML with every default. `rows`: commands, an array; `pilots`: paths; `controller`: module:function, or None; one of the
     three at most. `last_tick`, `every`, `control_ticks`: steps. `vary`: by key (kind, distribution); `keys`: its names, in order.
     `metrics`: Metric. `modules`: by name the source of the user's modules.
@@ -100,6 +101,8 @@ class Plan:
         self._read_design(place, scenario)
         context = _Context(self, scenario, self.folder)
         self.metrics = [self._metric(name, inner, context) for name, inner in place.at("metrics").items("metrics")]
+        # Where metrics look at the end alone, nothing else is put out: half of a flight's time.
+        self.every_of_metrics = self.last_tick if all(metric.needs_end_alone for metric in self.metrics) else self.every
         self.modules = self._read_modules(place)
         self.fingerprint_text = self._fingerprint()
 
@@ -120,6 +123,9 @@ class Plan:
             self.every = _whole_steps(place.at("output_period"), self.step_ns)
         else:
             self.every = max(1, _ticks(OUTPUT_PERIOD, self.step_ns))
+        if self.last_tick % self.every:
+            raise place.at("duration").error(f"must be a whole number of output periods of {self.every * self.step_ns * 1e-9:g} s "
+                                             "(output_period)")
 
     def _read_source(self, place, scenario):
         given = [key for key in ("commands", "pilot", "controller") if key in place.value]
