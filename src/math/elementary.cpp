@@ -16,6 +16,11 @@ double exactExp(double x) {
   return exp(Quad(x)).convert_to<double>();
 }
 
+double exactLog(double x) {
+  const FloatingPointEnvironment environment;
+  return log(Quad(x)).convert_to<double>();
+}
+
 double exactSin(double angle) {
   const FloatingPointEnvironment environment;
   return sin(Quad(angle)).convert_to<double>();
