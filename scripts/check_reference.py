@@ -34,6 +34,7 @@ PROBES = [('Scenario file', 'hovercraft', path) for path in (
         CRAFT + 'parts=[{{cylinder: {{{}: 1}}, mass: 1}}]', CRAFT + 'parts=[{{cone: {{{}: 1}}, mass: 1}}]',
         CRAFT + 'parts=[{{mesh: {{{}: 1}}, mass: 1}}]')] + [
     ('Scenario file', 'gusts', 'vehicles.mvwt.drag.polar.{}')] + [
+    ('Fleets', 'hovercraft', 'vehicles.fleet={{count: 2, like: hovercraft, spacing: 1, {}: 1}}')] + [
     ('Actuators', 'vectored_fans', CRAFT + 'actuators.fl={{kind: ' + kind + ', {}: 1}}')
     for kind in ('fan', 'propeller', 'lift_fan', 'rudder')] + [
     ('Gusts', 'gusts', 'gusts.{}'), ('Gusts', 'gusts', 'gusts.along.{}')] + [('World', 'crates', path) for path in (
