@@ -130,7 +130,7 @@ class Flyer:
         """
         every = every or self.plan.every
         values = dict(zip(self.plan.columns(), (json.loads(cell) for cell in cells)))
-        simulation, held = self._simulation(values)
+        simulation, held = self._simulation(dict(zip(self.plan.columns(), cells)), values["seed"])
         start = simulation._core.save()
         changes = self._changes(simulation, values)
         loop = _ClosedLoop(self, simulation, held, values, changes) if self.plan.control_ticks else None
@@ -160,12 +160,12 @@ class Flyer:
         bags().write_bag(path, origin.scenario_yaml, origin.snapshot(), origin.commands, origin.last_tick, origin.every)
         return said or "ok"
 
-    def _simulation(self, values):
-        changes = [f"{key}={json.dumps(values[key])}" for key in self.plan.keys
-                   if key != "seed" and not key.startswith("command_")]
+    def _simulation(self, cells, seed):
+        """(simulation, scenario). :param cells: JSON texts by key."""
+        changes = [f"{key}={cells[key]}" for key in self.plan.keys if key != "seed" and not key.startswith("command_")]
         try:
             held = self.base.with_values("; ".join(changes)) if changes else self.base
-            return Simulation(Scenario(held), values["seed"]), held
+            return Simulation(Scenario(held), seed), held
         except ValueError as error:
             raise Failure("refused", str(error)) from None
 
