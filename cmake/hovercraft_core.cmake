@@ -2,6 +2,7 @@
 # includes this, and so does test/determinism, which builds the core without ROS; both find Eigen and Boost before.
 
 include(${CMAKE_CURRENT_LIST_DIR}/unity.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/commit.cmake)
 
 option(HOVERCRAFT_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 option(HOVERCRAFT_FUZZ "Programs of libFuzzer for the readers of foreign bytes, with the sanitizers (clang++; scripts/fuzz)" OFF)
@@ -77,7 +78,12 @@ endfunction()
 # A square root that need not set errno is one instruction, and may be taken of several numbers at once: the same numbers for less.
 set_source_files_properties(${hovercraft_root}/src/cushion/cushion.cpp PROPERTIES COMPILE_OPTIONS -fno-math-errno)
 
+set(hovercraft_commit_source ${CMAKE_CURRENT_BINARY_DIR}/commit.cpp)
+set_source_files_properties(${hovercraft_commit_source} PROPERTIES GENERATED TRUE)
+list(APPEND hovercraft_core_sources ${hovercraft_commit_source})
+hovercraft_commit(hovercraft_commit ${CMAKE_CURRENT_LIST_DIR}/commit.cpp.in ${hovercraft_commit_source})
 hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt PNG::PNG ${qhull_library})
+add_dependencies(hovercraft_core_objects hovercraft_commit)
 foreach(module math geometry body cushion hovercraft collision contact control pilot sensors world sim)
   hovercraft_unity(hovercraft_core_objects ${module} ${sources_of_${module}})
 endforeach()

@@ -5,9 +5,11 @@ import math
 
 import rospy
 from geometry_msgs.msg import TransformStamped
+from hovercraft_sim.version import answer_version
 from tf2_msgs.msg import TFMessage
 
 if __name__ == '__main__':
+    answer_version()
     rospy.init_node('fixed_localiser')
     x, y, yaw = (float(rospy.get_param('~' + name, 0.0)) for name in ('x', 'y', 'yaw'))
     transform = TransformStamped()

@@ -9,6 +9,7 @@
 
 #include <geometry_msgs/Quaternion.h>
 #include <hovercraft_sim/ThrustCommand.h>
+#include <hovercraft_sim/sim/version.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -45,6 +46,7 @@ bool read(const ros::NodeHandle& own, const char* name, double& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (hovercraft::answersVersion("hold_heading", argc, argv)) return 0;
   ros::init(argc, argv, "hold_heading");
   ros::NodeHandle node;
   const ros::NodeHandle own("~");

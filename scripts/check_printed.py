@@ -28,6 +28,7 @@ import printed_rules
 DEADLINE = 300.0  # s for a command to end, or for what it runs for to come: a build on a busy machine takes a third of it
 SIGINT_PATIENCE = 30.0  # s
 POLL = 0.1  # s
+FAILURE_SHOWN = 1000  # characters of each at the end
 # In the output of what works there is none of these.
 FORBIDDEN = re.compile(r'non-unique executable|^Traceback|^.*\[ERROR\].*|command not found', re.MULTILINE)
 
@@ -276,8 +277,8 @@ def report(item, began, verdict, detail=''):
 
 
 def run_all(terminal, items):
-    """Runs them in order; returns how many failed."""
-    failures, section, block = 0, None, 0
+    """Runs them in order; returns what is said of those that failed."""
+    failures, section, block = [], None, 0
     for item in items:
         began = time.monotonic()
         try:
@@ -290,13 +291,13 @@ def run_all(terminal, items):
             reason = handle(terminal, item)
             report(item, began, 'skipped' if reason else 'ok', f': {reason}' if reason else '')
         except Failure as failure:
-            failures += 1
+            failures.append(f'{item.document}:{item.line}: {item.name or item.text}\n{failure}')
             report(item, began, 'FAILED', f'\n{failure}')
     try:
         terminal.end_section()
     except Failure as failure:
-        failures += 1
-        print(f'FAILED at the end of {section}\n{failure}', flush=True)
+        failures.append(f'at the end of {section}\n{failure}')
+        print(f'FAILED {failures[-1]}', flush=True)
     return failures
 
 
@@ -308,7 +309,7 @@ def run_in_lanes(terminals, items):
     failures = run_all(terminals[0], items[:begin])
     lanes = [[item for item in items[begin:] if (item.document == first) == is_first] for is_first in (True, False)]
     with concurrent.futures.ThreadPoolExecutor() as pool:
-        return failures + sum(pool.map(run_all, terminals, lanes))
+        return failures + sum(pool.map(run_all, terminals, lanes), [])
 
 
 def unused_rules(items):
@@ -327,8 +328,9 @@ def main():
     build = arguments.build.resolve()
 
     printed.check_reader()
-    tools = [path.name for path in (build / 'devel/lib/hovercraft_sim').iterdir()]
-    items = [item for document in printed_rules.DOCUMENTS for item in printed.read(document, printed_rules.TEXTS, tools)
+    tools = [path.name for path in (build / 'devel/lib/hovercraft_sim').iterdir()] + list(printed_rules.READERS_PROGRAMS)
+    items = [item for document in printed_rules.DOCUMENTS
+             for item in printed.read(document, printed_rules.TEXTS, tools, printed_rules.CHECKED_ELSEWHERE.get(document, ()))
              if item.section not in printed_rules.UNREAD_SECTIONS]
     unused = unused_rules(items)
     if unused:
@@ -348,7 +350,8 @@ def main():
                 process.end()
         shutil.rmtree(folder, ignore_errors=True)
     if failures:
-        sys.exit(f'{failures} of what the documents print failed')
+        # Once more: a CI keeps the end of a long log.
+        sys.exit('\n'.join([f'{len(failures)} of what the documents print failed:'] + [failure[:FAILURE_SHOWN] for failure in failures]))
     print(f'None of the {len(items)} commands and files that the documents print failed; those that are skipped say why.')
 
 

@@ -8,6 +8,7 @@ import os
 import sys
 
 import numpy as np
+from hovercraft_sim.version import answer_version
 
 
 def parse(arguments):
@@ -24,6 +25,7 @@ def parse(arguments):
                         help='of a foreign bag, one for each actuator, such as rear=/motors.data[0]')
     parser.add_argument('--segment', type=float, default=1.0, metavar='S', help='length of what is predicted at once (1 s)')
     parser.add_argument('--plots', metavar='FILE.png', help='draw the residuals')
+    parser.add_argument('--version', action='store_true', help='of the package, and of the physics')
     return parser.parse_args(arguments)
 
 
@@ -115,6 +117,7 @@ def draw(path, fit):
 
 def main(arguments=None):
     """Exit status 0 if all was found, 1 if something is wrong or the data do not tell."""
+    answer_version(arguments)
     options = parse(arguments)
     try:
         from hovercraft_core import identification

@@ -16,7 +16,12 @@ import os
 import stat
 import sys
 
-import matplotlib
+from hovercraft_sim.version import answer_version
+
+if __name__ == '__main__':
+    answer_version()  # before what may not be installed
+
+import matplotlib  # noqa: E402
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 from matplotlib.collections import LineCollection  # noqa: E402
@@ -266,6 +271,7 @@ def main():
     parser.add_argument('run', metavar='RUN', help='a bag of the run, or a states CSV of simulate')
     parser.add_argument('-o', '--output', default='run.png', help='the picture (default: %(default)s)')
     parser.add_argument('--vehicle', help='its name; needed if the run holds several')
+    parser.add_argument('--version', action='store_true', help='of the package, and of the physics')
     arguments = parser.parse_args()
     read = read_csv if arguments.run.lower().endswith('.csv') else read_bag
     try:

@@ -51,8 +51,8 @@ def commands_of(lines):
 
 
 class Reader:
-    def __init__(self, document, languages_of_texts, tools):
-        self.document, self.texts, self.tools = document, languages_of_texts, tools
+    def __init__(self, document, languages_of_texts, tools, checked_elsewhere=()):
+        self.document, self.texts, self.tools, self.checked_elsewhere = document, languages_of_texts, tools, checked_elsewhere
         self.section, self.found = '', []
 
     def add(self, line, kind, text, name='', block=0):
@@ -93,6 +93,8 @@ class Reader:
         if language in ('bash', 'sh'):
             for offset, command in commands_of(lines):
                 self.add(line + offset, 'command', command, block=line)
+        elif language in self.checked_elsewhere:
+            return
         elif language in self.texts:
             for offset, text in enumerate(lines):
                 if is_command(text, self.tools):
@@ -108,8 +110,8 @@ def last_of(lines, at):
     return [line for line in lines[:at] if line.strip()][-1:]
 
 
-def read(document, languages_of_texts, tools):
-    return Reader(document, languages_of_texts, tools).read(pathlib.Path(document).read_text())
+def read(document, languages_of_texts, tools, checked_elsewhere=()):
+    return Reader(document, languages_of_texts, tools, checked_elsewhere).read(pathlib.Path(document).read_text())
 
 
 SAMPLE = """

@@ -13,6 +13,7 @@ A command without a rule is run as it stands: it must end by itself, with exit s
 """
 
 import collections
+import pathlib
 import re
 import shutil
 
@@ -20,11 +21,15 @@ Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive the
 
 DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/reference.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md',
              'doc/sensors.md', 'doc/helm.md', 'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md', 'doc/accuracy.md', 'doc/tutorial.md', 'doc/cookbook.md',
-             'doc/web.md')
+             'doc/web.md', 'doc/python.md', 'doc/identify.md', 'doc/install.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
+# Programs of a reader's own machine, which need not be here.
+READERS_PROGRAMS = ('node', 'rviz', 'ssh', 'xdg-open')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
 TEXTS = ('', 'text', 'mermaid')
+# Blocks that another check runs: scripts/check_python does.
+CHECKED_ELSEWHERE = {'doc/python.md': ('python',)}
 
 # Up to this section of the first document everything runs in order. What it built is there then, and the other documents run beside the rest.
 LAST_IN_ORDER = 'Build it yourself'
@@ -42,6 +47,8 @@ ROSRUN = ('for name in hold_heading.py plot_run.py simulate; do '
 SCRIPTS_TEST = 'scripts/test runs it'
 # scripts/test installs no RViz.
 NO_RVIZ = None if all(map(shutil.which, ('rviz', 'Xvfb', 'import'))) else 'it needs rviz, xvfb and imagemagick, which are not here'
+# Debian 12 alone installs what builds the package of Python.
+NO_PYTHON = None if pathlib.Path('/usr/include/pybind11/pybind11.h').exists() else 'it needs pybind11, which is not here'
 NAMED = 'a name in a sentence: nothing to run'
 RECORDS = 'rosnode info /record | grep /hovercraft/state'
 HAS_THRUSTS = 'rosbag info flight.bag | grep /hovercraft/thrust/rear'
@@ -79,8 +86,11 @@ RULES = (
     Rule(r'cmake .* build_release -DCATKIN_ENABLE_TESTING=ON|cmake .* --target hovercraft_sim_test_math .*|build_release/.*/hovercraft_sim_test_math .*',
          skip=SCRIPTS_TEST),
     Rule(r'clang-format-14 -i .*|scripts/(fuzz|mutate) .*', skip=NAMED),
-    Rule(r'sudo scripts/(try_in_chroot|determinism).*', skip='it makes a bare Debian from the network, as root'),
+    Rule(r'sudo scripts/(try_in_chroot|determinism|package|check_package).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
+    # doc/install.md
+    Rule(r'sudo apt-get (install .*build/packages.*|purge .*)', skip='scripts/check_package does it in a bare Debian'),
+    Rule(r'scripts/(package|check_package) SUITE.*|new_package NAME FOLDER|.*rosrun\s+hovercraft_sim new_package', skip=NAMED),
     # doc/craft.md
     Rule(r'roslaunch hovercraft_sim sim\.launch scenario:=\$PWD/config/lift_fan\.yaml', beside=(), until='/hovercraft_sim/scenario', stays=True),
     Rule(r'rostopic pub -1 /rc5/actuators/lift .*', beside=('roslaunch hovercraft_sim sim.launch scenario:=$PWD/config/lift_fan.yaml',)),
@@ -113,6 +123,9 @@ RULES = (
     Rule(r'roslaunch hovercraft_sim web\.launch( address:=.*)?', beside=(), until='rosparam get /web/bound_port'),
     Rule(r'rosrun hovercraft_sim web_node .*', beside=(SIMULATION,), until='rosparam get /web/bound_port'),
     Rule(r'ssh -L .*', skip='there is no other machine'),
+    # doc/identify.md
+    Rule(r'rosrun hovercraft_sim identify\.py .*', skip=NO_PYTHON, says=r'drag\.linear\[0\] +0\.8 '),
+    Rule(r'identify\.py run_1\.bag run_2\.bag .*|scripts/check_python .*', skip='it takes minutes; scripts/check_python does the like'),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
     Rule(r'node web/.*|cd web && .*', skip="it needs npm's network; scripts/check_page does it"),

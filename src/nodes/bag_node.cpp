@@ -15,6 +15,8 @@
 #include <ros/package.h>
 #include <ros/param.h>
 
+#include "hovercraft_sim/sim/version.h"
+
 /// Becomes `rosbag record` or `rosbag play`, with the bag that ~bag names: roslaunch would split a
 /// path among the arguments at its spaces and quotes. Says at once what rosbag would say late or
 /// not at all.
@@ -66,6 +68,7 @@ std::string requireBag(const std::string& verb) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (hovercraft::answersVersion("bag_node", argc, argv)) return 0;
   std::vector<std::string> arguments(argv + 1, argv + argc);  // remappings are for rosbag as well
   ros::init(argc, argv, "bag_node");
   try {

@@ -14,8 +14,10 @@
 
 #include "hovercraft_sim/ros/node_services.h"
 #include "hovercraft_sim/ros/parameters.h"
+#include "hovercraft_sim/sim/version.h"
 
 int main(int argc, char** argv) {
+  if (hovercraft::answersVersion("hovercraft_node", argc, argv)) return 0;
   ros::init(argc, argv, "hovercraft_sim");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

@@ -5,7 +5,10 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
+#include "hovercraft_sim/sim/version.h"
+
 int main(int argc, char** argv) {
+  if (hovercraft::answersVersion("markers_node", argc, argv)) return 0;
   ros::init(argc, argv, "hovercraft_markers");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

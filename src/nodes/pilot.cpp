@@ -13,12 +13,13 @@
 #include "hovercraft_sim/ros/pilot_node.h"
 #include "hovercraft_sim/ros/received_scenario.h"
 #include "hovercraft_sim/sim/pilot_parser.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
 constexpr double kPoll = 0.1;  // s, how often a shutdown is looked for
 
-/// The file that is flown; nothing if only help was asked for.
+/// The file that is flown; nothing if only help or the version was asked for.
 std::optional<std::string> fileOf(int argc, char** argv) {
   namespace po = boost::program_options;
   std::string file;
@@ -26,6 +27,7 @@ std::optional<std::string> fileOf(int argc, char** argv) {
   auto add = options.add_options();
   add("file", po::value(&file)->required(), "manoeuvres (YAML): doc/manoeuvres.md");
   add("help,h", "this text");
+  add("version", "of the package, and of the physics");
   po::positional_options_description positions;
   positions.add("file", 1);
   po::variables_map values;
@@ -36,6 +38,10 @@ std::optional<std::string> fileOf(int argc, char** argv) {
                  "Flies manoeuvres with a craft of a simulation that runs, and says what they came "
                  "to.\nWithout ROS running: simulate SCENARIO.yaml --pilot FILE.yaml\n\n"
               << options;
+    return std::nullopt;
+  }
+  if (values.count("version") > 0) {
+    std::cout << hovercraft::versionText("pilot") << '\n';
     return std::nullopt;
   }
   po::notify(values);

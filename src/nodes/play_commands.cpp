@@ -13,6 +13,7 @@
 #include "hovercraft_sim/ros/play_config.h"
 #include "hovercraft_sim/ros/received_scenario.h"
 #include "hovercraft_sim/sim/commands_csv.h"
+#include "hovercraft_sim/sim/version.h"
 
 namespace {
 
@@ -21,6 +22,7 @@ constexpr double kPoll = 0.1;  // s, how often a shutdown is looked for
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (hovercraft::answersVersion("play_commands", argc, argv)) return 0;
   ros::init(argc, argv, "play_commands");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

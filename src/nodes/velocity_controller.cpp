@@ -7,8 +7,10 @@
 
 #include "hovercraft_sim/ros/parameters.h"
 #include "hovercraft_sim/ros/velocity_node.h"
+#include "hovercraft_sim/sim/version.h"
 
 int main(int argc, char** argv) {
+  if (hovercraft::answersVersion("velocity_controller", argc, argv)) return 0;
   ros::init(argc, argv, "velocity_controller");
   ros::NodeHandle handle;
   try {

@@ -9,8 +9,10 @@
 #include <ros/this_node.h>
 
 #include "hovercraft_sim/ros/parameters.h"
+#include "hovercraft_sim/sim/version.h"
 
 int main(int argc, char** argv) {
+  if (hovercraft::answersVersion("web_node", argc, argv)) return 0;
   ros::init(argc, argv, "web");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

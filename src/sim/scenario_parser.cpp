@@ -222,10 +222,11 @@ std::int64_t physicsVersionOf(const std::string& text, const std::string& source
 Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader reader(tree, source.name);
-  reader.allowOnly({"physics_version", "step_size", "integrator", "orientation", "model", "gravity",
-                    "wind", "gusts", "seed", "vehicles", "world", "ground"});
+  reader.allowOnly({"physics_version", "software", "step_size", "integrator", "orientation",
+                    "model", "gravity", "wind", "gusts", "seed", "vehicles", "world", "ground"});
   Scenario scenario;
   checkPhysicsVersion(reader, source.may_be_older);
+  if (reader.has("software")) (void)reader.text("software");  // whatever wrote it
   scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
       static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));

@@ -89,9 +89,10 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
 std::string toYaml(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   std::string yaml = fmt::format(
-      "physics_version: {}\nstep_size: {}\nintegrator: {}\norientation: {}\nmodel: {}\n"
+      "physics_version: {}\nsoftware: {}\nstep_size: {}\nintegrator: {}\norientation: {}\nmodel: "
+      "{}\n"
       "gravity: {}\nwind: {}\n{}seed: {}\nvehicles:\n",
-      kPhysicsVersion, yamlNumber(scenario.stepSize()),
+      kPhysicsVersion, yamlText(softwareText()), yamlNumber(scenario.stepSize()),
       integratorNames()[static_cast<std::size_t>(scenario.integrator)],
       orientationNames()[static_cast<std::size_t>(scenario.orientation)],
       modelNames()[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),

@@ -6,6 +6,7 @@ import { chromium, type Browser, type Page } from 'playwright-core';
 
 // The page of a web_node that scripts/check_page has started (LIVE=http://localhost:PORT), in a real browser.
 const live = new URL(process.env['LIVE'] ?? 'http://localhost:8080');
+const fleet = process.env['FLEET']; // the page of a simulation of two craft, alpha and beta
 const shots = process.env['SHOTS']; // a folder for pictures
 const FLAGS = ['--no-sandbox', '--enable-unsafe-swiftshader', '--host-resolver-rules=MAP rebind.example 127.0.0.1'];
 const PATIENCE = 30000; // ms
@@ -212,6 +213,25 @@ test('two viewers, one driver, who is named', async () => {
   await waitFor(second.page, '.who', /^Nobody drives/);
   await takeHelm(second.page);
   await close(second);
+});
+
+test('two craft have a driver each, who moves only his own', async () => {
+  assert.ok(fleet);
+  const [first, second] = [await open(fleet), await open(fleet)];
+  await second.page.getByRole('button', { name: 'beta' }).click();
+  await waitFor(second.page, '.who', /^Nobody drives beta$/);
+  await takeHelm(first.page);
+  await takeHelm(second.page);
+  await second.page.keyboard.down('w');
+  await waitForSpeed(second.page, (speed) => speed > 0.5);
+  assert.equal(await speedOf(first.page), 0); // alpha's
+  await first.page.getByRole('button', { name: 'beta' }).click();
+  await waitFor(first.page, '.who', /drives beta$/);
+  assert.ok(await first.page.getByRole('button', { name: 'Take the helm' }).isDisabled());
+  await waitForSpeed(first.page, (speed) => speed > 0.5);
+  if (shots) await first.page.screenshot({ path: `${shots}/fleet.png` });
+  await second.page.keyboard.up('w');
+  await close(first, second);
 });
 
 /** A door to the server that can be shut. */

@@ -10,11 +10,11 @@
 namespace hovercraft {
 
 /// How two convex bodies lie to each other.
-enum class Proximity {
-  kSeparated,    // the distance is positive
-  kTouching,     // it is zero but for rounding
-  kPenetrating,  // the distance is minus the depth
-  kStepLimit     // the bound on the number of steps was reached: no answer
+enum class [[nodiscard]] Proximity{
+    kSeparated,    // the distance is positive
+    kTouching,     // it is zero but for rounding
+    kPenetrating,  // the distance is minus the depth
+    kStepLimit     // the bound on the number of steps was reached: no answer
 };
 
 /// Where a query starts, and where it ended: keep it from one query of a pair of bodies to the

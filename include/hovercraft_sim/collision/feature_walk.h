@@ -17,7 +17,7 @@ namespace hovercraft {
 /// pair in the world costs no digits. Side 0 is A, side 1 is B.
 class FeatureWalk {
  public:
-  enum class End { kClosest, kOverlap, kStepLimit, kImpatient };
+  enum class [[nodiscard]] End{kClosest, kOverlap, kStepLimit, kImpatient};
 
   FeatureWalk(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyhedron& B,
               const Pose& X_WB)
@@ -60,8 +60,8 @@ class FeatureWalk {
 
  private:
   using Data = PolyhedronData;
-  enum class Outcome { kMoved, kClosest, kOverlap, kUncertain };
-  enum class Verdict { kInside, kOutside, kUncertain };
+  enum class [[nodiscard]] Outcome{kMoved, kClosest, kOverlap, kUncertain};
+  enum class [[nodiscard]] Verdict{kInside, kOutside, kUncertain};
 
   /// The edge of a vertex along which a direction climbs most.
   struct Slope {

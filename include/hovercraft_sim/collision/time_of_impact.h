@@ -6,12 +6,12 @@
 
 namespace hovercraft {
 
-enum class ImpactStatus {
-  kNone,         // the bodies stay apart for the whole step
-  kImpact,       // at `time` they are `tolerance` apart or less, and have not met before
-  kOverlapping,  // they overlap at t = 0 already
-  kQueryLimit  // the bound on the number of queries was reached, or one found no answer; they have
-               // not met before `time`
+enum class [[nodiscard]] ImpactStatus{
+    kNone,         // the bodies stay apart for the whole step
+    kImpact,       // at `time` they are `tolerance` apart or less, and have not met before
+    kOverlapping,  // they overlap at t = 0 already
+    kQueryLimit    // the bound on the number of queries was reached, or one found no answer; they
+                 // have not met before `time`
 };
 
 /// How to search for the time of impact. All are never late.

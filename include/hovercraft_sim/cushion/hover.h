@@ -32,11 +32,11 @@ struct HoverBody {
   double gravity = 0.0;                   // m/s², along -z of W, > 0
 };
 
-enum class HoverStatus {
-  kHovers,
-  kTooHeavy,  // the fans' pressure without flow does not carry the craft
-  kTooLight,  // the fans carry it however high it is
-  kNotLevel,  // no attitude below kMostTrim balances the moments
+enum class [[nodiscard]] HoverStatus{
+    kHovers,
+    kTooHeavy,  // the fans' pressure without flow does not carry the craft
+    kTooLight,  // the fans carry it however high it is
+    kNotLevel,  // no attitude below kMostTrim balances the moments
 };
 
 /// A craft that hovers over level ground.

@@ -20,6 +20,6 @@ struct WeldedMesh {
 
 /// Joins vertices on open edges that lie within kWeldDistance of each other, if no edge is open
 /// then; none otherwise, or if there is nothing to join. Vertices on closed edges stay apart.
-std::optional<WeldedMesh> weldedShut(const PolygonMesh& mesh);
+[[nodiscard]] std::optional<WeldedMesh> weldedShut(const PolygonMesh& mesh);
 
 }  // namespace hovercraft

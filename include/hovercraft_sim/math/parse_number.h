@@ -6,7 +6,7 @@
 
 namespace hovercraft {
 
-enum class NumberSyntax { kNumber, kNotFinite, kNoNumber };
+enum class [[nodiscard]] NumberSyntax{kNumber, kNotFinite, kNoNumber};
 
 /// What a text says as a decimal number.
 struct ParsedNumber {

@@ -42,7 +42,7 @@ inline Matrix3 rotationRate(const Vector3& w_WB, const Matrix3& R_WB) {
 /// preferred.
 /// @returns none if A is singular, reflected, not finite, or so far from SO(3) that the iteration
 /// does not end.
-HOVERCRAFT_PUBLIC std::optional<Matrix3> findNearestRotation(const Matrix3& A);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<Matrix3> findNearestRotation(const Matrix3& A);
 
 /// The same of a matrix near SO(3). @throws std::logic_error if there is none.
 HOVERCRAFT_PUBLIC Matrix3 nearestRotation(const Matrix3& A);

@@ -16,7 +16,7 @@ class CommandList : public hovercraft::CommandSource {
  public:
   /// @param commands in the order of their ticks.
   explicit CommandList(std::vector<hovercraft::Command> commands);
-  std::optional<hovercraft::Command> next() override;
+  [[nodiscard]] std::optional<hovercraft::Command> next() override;
 
  private:
   std::vector<hovercraft::Command> commands_;

@@ -42,7 +42,7 @@ class HOVERCRAFT_PUBLIC MessageLayout {
   MessageLayout(const std::string& type, const std::string& definition);
 
   const std::vector<MessageLeaf>& leaves() const { return leaves_; }
-  std::optional<std::size_t> find(const std::string& path) const;
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& path) const;
 
   /// Reads one message. @param values one for each leaf; those of elements that the message lacks
   /// keep their defaults.

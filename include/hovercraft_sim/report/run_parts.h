@@ -32,8 +32,10 @@ std::vector<BodyTopics> bodiesIn(const RecordedTopics& recorded,
 RunMotion motionOf(const BodyTopics& topics, const hovercraft::Vector3& p_HB, std::int64_t zero_ns);
 
 /// From twist, odom or state; else from the poses, as the quotients of their differences.
-std::optional<RunVelocity> velocityOf(const BodyTopics& topics, const RunMotion& motion,
-                                      const hovercraft::Vector3& p_HB, std::int64_t zero_ns);
+[[nodiscard]] std::optional<RunVelocity> velocityOf(const BodyTopics& topics,
+                                                    const RunMotion& motion,
+                                                    const hovercraft::Vector3& p_HB,
+                                                    std::int64_t zero_ns);
 
 /// Panels of one body: velocity, rates, thrusts, attitude, height, energy.
 std::vector<RunPanel> mainPanels(const RunBody& body, const BodyTopics& topics,
@@ -53,14 +55,15 @@ std::vector<RunShape> shapesOf(const hovercraft::VehicleScenario& vehicle, bool 
 std::vector<RunEngine> enginesOf(const hovercraft::VehicleScenario& vehicle);
 std::vector<RunObstacle> obstaclesOf(const hovercraft::Scenario& scenario);
 /// The ground of a scenario that has one; of a large height map every n-th pixel.
-std::optional<RunGround> groundOf(const hovercraft::Scenario& scenario);
+[[nodiscard]] std::optional<RunGround> groundOf(const hovercraft::Scenario& scenario);
 
 /// From the states of a craft, by the trapezoidal rule over them; nothing if there are fewer than
 /// two. The wind is that of the topic `wind` where it was recorded with each state. @param
 /// mean_wind m/s, else. @param contacts_ns times of the contacts of the craft, in order.
-std::optional<EnergyLedger> ledgerOf(const BodyTopics& topics,
-                                     const hovercraft::VehicleScenario& vehicle,
-                                     const hovercraft::Vector3& mean_wind, std::int64_t zero_ns,
-                                     const std::vector<std::int64_t>& contacts_ns);
+[[nodiscard]] std::optional<EnergyLedger> ledgerOf(const BodyTopics& topics,
+                                                   const hovercraft::VehicleScenario& vehicle,
+                                                   const hovercraft::Vector3& mean_wind,
+                                                   std::int64_t zero_ns,
+                                                   const std::vector<std::int64_t>& contacts_ns);
 
 }  // namespace hovercraft_ros

@@ -21,9 +21,9 @@ class HOVERCRAFT_PUBLIC CommandSchedule {
   void clear() { waiting_.clear(); }
 
   /// The next one with a tick of at most `tick`; those of one tick in the order in which they came.
-  std::optional<hovercraft::Command> takeDue(hovercraft::Tick tick);
+  [[nodiscard]] std::optional<hovercraft::Command> takeDue(hovercraft::Tick tick);
   /// Tick of the next one.
-  std::optional<hovercraft::Tick> next() const;
+  [[nodiscard]] std::optional<hovercraft::Tick> next() const;
 
  private:
   std::multimap<hovercraft::Tick, hovercraft::Command> waiting_;

@@ -22,7 +22,7 @@ class HOVERCRAFT_PUBLIC BagCommandSource : public hovercraft::CommandSource {
   BagCommandSource(const std::string& path, const hovercraft::Scenario& scenario);
   ~BagCommandSource() override;
 
-  std::optional<hovercraft::Command> next() override;
+  [[nodiscard]] std::optional<hovercraft::Command> next() override;
 
   /// Which topics are played, for people.
   const std::string& description() const;

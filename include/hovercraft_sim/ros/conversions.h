@@ -60,18 +60,17 @@ HOVERCRAFT_PUBLIC hovercraft_sim::ActuatorCommand toActuatorCommand(
     const ros::Time& stamp);
 
 /// The command that a message asks for at `tick`; nothing if a thrust is not finite.
-HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
     const hovercraft_sim::ThrustCommand& message, std::size_t vehicle, hovercraft::Tick tick);
-HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(double thrust,
-                                                               hovercraft::EngineId engine,
-                                                               std::size_t vehicle,
-                                                               hovercraft::Tick tick);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
+    double thrust, hovercraft::EngineId engine, std::size_t vehicle, hovercraft::Tick tick);
 /// For the actuator of that id, by the command of its kind.
-HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(double value, std::size_t id,
-                                                               std::size_t vehicle,
-                                                               hovercraft::Tick tick);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(double value,
+                                                                             std::size_t id,
+                                                                             std::size_t vehicle,
+                                                                             hovercraft::Tick tick);
 /// Nothing too if a name is unknown or stands twice, or there are not as many values as names.
-HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
     const hovercraft_sim::ActuatorCommand& message, const hovercraft::VehicleScenario& craft,
     std::size_t vehicle, hovercraft::Tick tick);
 /// The command that was recorded, to be applied at its own tick.

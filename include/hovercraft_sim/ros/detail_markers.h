@@ -30,7 +30,8 @@ HOVERCRAFT_PUBLIC hovercraft::Vector3 dragOf(const hovercraft::VehicleScenario& 
 
 /// The mean of all forces on a craft between two states, N, in W: the change of its momentum over
 /// the time. Nothing where there is no state before.
-HOVERCRAFT_PUBLIC std::optional<hovercraft::Vector3> resultantOf(const CraftMotion& motion);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Vector3> resultantOf(
+    const CraftMotion& motion);
 
 /// Arrows 0.3 m above the centre of mass: `NAME/drag`, `NAME/resultant`, as long as those of
 /// thrusts: 0.8 m for the greatest thrust of an engine (of a craft without, for its mass times 1

@@ -28,7 +28,7 @@ class HOVERCRAFT_PUBLIC Lockstep {
   const char* offer(std::size_t vehicle, const std::optional<ros::Time>& stamp);
 
   /// The first vehicle, in the order of the scenario, whose command is awaited.
-  std::optional<std::size_t> awaited() const;
+  [[nodiscard]] std::optional<std::size_t> awaited() const;
 
  private:
   ros::Time stamp_;

@@ -23,7 +23,7 @@ HOVERCRAFT_PUBLIC hovercraft_sim::Manoeuvre toMessage(const hovercraft::FlownMan
 /// What a pilot is told of a state.
 /// @param step_ns of the scenario. @returns nothing if no simulation has such a state: a number is
 /// not finite, the orientation no unit quaternion, or the tick beyond those that its time can have.
-HOVERCRAFT_PUBLIC std::optional<hovercraft::ObservedMotion> toObservedMotion(
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::ObservedMotion> toObservedMotion(
     const hovercraft_sim::State& state, std::int64_t step_ns);
 
 }  // namespace hovercraft_ros

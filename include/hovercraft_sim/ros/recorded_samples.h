@@ -53,7 +53,8 @@ class HOVERCRAFT_PUBLIC SampleComparison {
   /// The first one that differed.
   const std::optional<Difference>& difference() const { return difference_; }
   /// The first recorded one with a stamp in (begin, end], ns, that the run did not have.
-  std::optional<Difference> missing(std::uint64_t begin_ns, std::uint64_t end_ns) const;
+  [[nodiscard]] std::optional<Difference> missing(std::uint64_t begin_ns,
+                                                  std::uint64_t end_ns) const;
   std::uint64_t compared() const { return compared_; }
 
  private:

@@ -51,7 +51,7 @@ class HOVERCRAFT_PUBLIC SensorMessages {
 
   /// odom -> base_link of the sample that was just filled in; none unless its sensor is the one
   /// that the craft's `tf: odometry` means.
-  std::optional<geometry_msgs::TransformStamped> transform(std::size_t sensor) const;
+  [[nodiscard]] std::optional<geometry_msgs::TransformStamped> transform(std::size_t sensor) const;
 
   /// base_link -> each sensor.
   std::vector<geometry_msgs::TransformStamped> sensorFrames(const ros::Time& stamp) const;

@@ -48,7 +48,8 @@ class FieldComparison {
     replayed_ = fmt::format("{:016x}", replayed);
   }
 
-  std::optional<ReplayDifference> result(const RunTime& time, const std::string& vehicle) const {
+  [[nodiscard]] std::optional<ReplayDifference> result(const RunTime& time,
+                                                       const std::string& vehicle) const {
     if (field_ == nullptr) return std::nullopt;
     return ReplayDifference{time, vehicle, field_, recorded_, replayed_};
   }
@@ -60,9 +61,9 @@ class FieldComparison {
 };
 
 /// The first field, in the order of State.msg, whose bits differ.
-inline std::optional<ReplayDifference> difference(const Recording::RecordedState& recorded,
-                                                  const hovercraft_sim::State& replayed,
-                                                  const std::string& vehicle) {
+[[nodiscard]] inline std::optional<ReplayDifference> difference(
+    const Recording::RecordedState& recorded, const hovercraft_sim::State& replayed,
+    const std::string& vehicle) {
   const hovercraft_sim::State& state = recorded.state;
   FieldComparison fields;
   fields.add("position.x", state.pose.position.x, replayed.pose.position.x);

@@ -30,7 +30,7 @@ std::string gustsYaml(const Scenario& scenario);
 
 /// The map behind `polar` of a `drag`; none without it. One that would give energy to the craft, in
 /// any of 720 directions of the air, is refused. @throws std::invalid_argument
-std::optional<DragPolar> parsePolar(const ConfigReader& drag);
+[[nodiscard]] std::optional<DragPolar> parsePolar(const ConfigReader& drag);
 
 /// The text of `polar` within the braces of `drag`; empty without one.
 std::string polarYaml(const VehicleScenario& vehicle);
@@ -39,6 +39,6 @@ std::string polarYaml(const VehicleScenario& vehicle);
 std::vector<std::string> bodyNames(const Scenario& scenario);
 
 /// The gusts of a run; none without them.
-std::optional<Gusts> gustsOf(const Scenario& scenario);
+[[nodiscard]] std::optional<Gusts> gustsOf(const Scenario& scenario);
 
 }  // namespace hovercraft

@@ -11,6 +11,6 @@ namespace hovercraft {
 HOVERCRAFT_PUBLIC std::string base64Text(const std::string& bytes);
 
 /// The bytes of such a text; none if it is something else.
-HOVERCRAFT_PUBLIC std::optional<std::string> base64Bytes(const std::string& text);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<std::string> base64Bytes(const std::string& text);
 
 }  // namespace hovercraft

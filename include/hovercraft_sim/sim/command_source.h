@@ -18,13 +18,13 @@ class CommandSource {
 
   /// The next command, none before the tick of the last one; nothing when there are no more.
   /// @throws std::invalid_argument that names file, place and rule if what comes next is bad.
-  virtual std::optional<Command> next() = 0;
+  [[nodiscard]] virtual std::optional<Command> next() = 0;
 };
 
 /// Nobody commands anything.
 class NoCommands : public CommandSource {
  public:
-  std::optional<Command> next() override { return std::nullopt; }
+  [[nodiscard]] std::optional<Command> next() override { return std::nullopt; }
 };
 
 /// The first tick at or after a time: ceil(time / step).

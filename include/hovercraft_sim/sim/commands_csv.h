@@ -24,7 +24,7 @@ class HOVERCRAFT_PUBLIC CsvCommandSource : public CommandSource {
   CsvCommandSource(const std::string& path, const Scenario& scenario,
                    InputKind kind = InputKind::kFile);
 
-  std::optional<Command> next() override;
+  [[nodiscard]] std::optional<Command> next() override;
 
  private:
   void requireEngineColumns() const;

@@ -14,7 +14,7 @@
 namespace hovercraft {
 
 /// The cushion of a craft that has one.
-HOVERCRAFT_PUBLIC std::optional<Cushion> cushionOf(const VehicleScenario& vehicle);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<Cushion> cushionOf(const VehicleScenario& vehicle);
 
 /// The vertices by which a craft or a loose body stands on `ground`: those of its hull, in a
 /// spatial scenario with a ground. None without a hull.

@@ -12,8 +12,8 @@ namespace hovercraft {
 /// The map behind `cushion` of a vehicle; none without it. @param actuators of the vehicle: its
 /// lift fans may turn the fans of the cushion.
 /// @throws std::invalid_argument
-std::optional<CushionParameters> parseCushion(const ConfigReader& vehicle,
-                                              const std::vector<ActuatorScenario>& actuators);
+[[nodiscard]] std::optional<CushionParameters> parseCushion(
+    const ConfigReader& vehicle, const std::vector<ActuatorScenario>& actuators);
 
 /// The text of `cushion` for toYaml(), indented by four, every cell written out; empty without one.
 std::string cushionYaml(const VehicleScenario& vehicle);

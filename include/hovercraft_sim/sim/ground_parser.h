@@ -12,7 +12,8 @@ namespace hovercraft {
 
 /// The map behind `ground` of a scenario; none without it.
 /// @param top the whole scenario. @throws std::invalid_argument
-std::optional<GroundScenario> parseGround(const ConfigReader& top, const ScenarioSource& source);
+[[nodiscard]] std::optional<GroundScenario> parseGround(const ConfigReader& top,
+                                                        const ScenarioSource& source);
 
 /// The text of `ground` for toYaml(); it needs no other file. Empty without one.
 std::string groundYaml(const Scenario& scenario);

@@ -30,7 +30,8 @@ PointsShape loadedHull(const ConfigReader& reader, const MeshShape& shape,
 /// The mesh behind the key `visual`, a path or URL or a map of `file`, `scale`, `position`, `rpy`;
 /// none if the key is missing. Whether it is there is for RViz to see.
 /// @throws std::invalid_argument
-std::optional<VisualScenario> parseVisual(const ConfigReader& reader, const ScenarioSource& source);
+[[nodiscard]] std::optional<VisualScenario> parseVisual(const ConfigReader& reader,
+                                                        const ScenarioSource& source);
 
 /// `key: value` of a visual, ready for a map of YAML; parseVisual() reads it back.
 std::string visualText(const VisualScenario& visual);

@@ -34,12 +34,12 @@ class HOVERCRAFT_PUBLIC NearestPairFinder {
   const std::vector<std::string>& moving() const { return moving_; }
   /// @param X_WH where base_link of each of moving() is; none: not known, it is left out. Finite,
   /// rotations orthonormal.
-  std::optional<NearestPair> find(const std::vector<std::optional<Pose>>& X_WH);
+  [[nodiscard]] std::optional<NearestPair> find(const std::vector<std::optional<Pose>>& X_WH);
   /// How far one of moving() is from the nearest of those that are named, m; negative: depth.
   /// @param a its index. @param names of moving ones and obstacles; empty: all others.
   /// @param X_WH as in find(). @returns none if there is no other, or a is not known.
-  std::optional<double> clearance(std::size_t a, const std::set<std::string>& names,
-                                  const std::vector<std::optional<Pose>>& X_WH);
+  [[nodiscard]] std::optional<double> clearance(std::size_t a, const std::set<std::string>& names,
+                                                const std::vector<std::optional<Pose>>& X_WH);
 
  private:
   struct Solid {
@@ -51,7 +51,8 @@ class HOVERCRAFT_PUBLIC NearestPairFinder {
   };
 
   /// Of the body frame.
-  std::optional<Pose> poseOf(std::size_t solid, const std::vector<std::optional<Pose>>& X_WH) const;
+  [[nodiscard]] std::optional<Pose> poseOf(std::size_t solid,
+                                           const std::vector<std::optional<Pose>>& X_WH) const;
   /// Takes the pair if it is nearer than the nearest one.
   void compare(std::size_t a, const Pose& X_WA, std::size_t b, const Pose& X_WB,
                std::optional<NearestPair>& nearest);

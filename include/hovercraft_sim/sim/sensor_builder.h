@@ -9,7 +9,7 @@
 namespace hovercraft {
 
 /// The sensors of a scenario; none if no craft has any.
-HOVERCRAFT_PUBLIC std::optional<SensorSuite> sensorSuiteOf(const Scenario& scenario);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<SensorSuite> sensorSuiteOf(const Scenario& scenario);
 
 /// What lasers see: of a scenario with a world the hulls of craft and loose bodies, and the
 /// obstacles.

@@ -45,8 +45,8 @@ class HOVERCRAFT_PUBLIC Simulation {
 
   /// The body that a craft would overlap there by more than the tolerance, or be squeezed against
   /// so that no gap can be made; none without a world.
-  std::optional<WorldOverlap> overlapAt(std::size_t vehicle, const Vector3& p_WB,
-                                        const Quaternion& q_WB) const;
+  [[nodiscard]] std::optional<WorldOverlap> overlapAt(std::size_t vehicle, const Vector3& p_WB,
+                                                      const Quaternion& q_WB) const;
 
   /// Adds a wrench from the current tick until its end tick.
   void applyWrench(const ExternalWrench& wrench);

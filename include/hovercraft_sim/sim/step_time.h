@@ -11,7 +11,7 @@ namespace hovercraft {
 
 /// How many steps a period is; none if these are not a whole number (rates are typed with few
 /// digits: 1e-9 of it may be missing), or below 1.
-HOVERCRAFT_PUBLIC std::optional<Tick> wholeSteps(double steps);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<Tick> wholeSteps(double steps);
 
 /// A duration of a scenario as whole nanoseconds. @param seconds what stands behind `key`.
 /// @throws std::invalid_argument if it is no whole number of them, or beyond kMaxNanoseconds.

@@ -16,7 +16,7 @@ struct TextFault {
 /// Why bytes are no text that every program reads alike, if they are not: not UTF-8, a control
 /// character other than tab, LF and CR, or one of the line ends that only YAML 1.1 knows (NEL, LS,
 /// PS).
-HOVERCRAFT_PUBLIC std::optional<TextFault> faultOfText(const std::string& text);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<TextFault> faultOfText(const std::string& text);
 
 /// @returns true if there is a control character other than tab and LF.
 /// @param text UTF-8.

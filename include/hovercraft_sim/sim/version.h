@@ -7,9 +7,6 @@
 
 namespace hovercraft {
 
-/// Of the package, as in package.xml.
-constexpr const char* kVersion = "0.2.0";
-
 /// Raised with every change after which the same scenario and commands give other bits: with each
 /// recorded hash that changes (test/determinism/hashes.txt). Recordings and snapshots carry it.
 constexpr std::int64_t kPhysicsVersion = 2;
@@ -17,7 +14,23 @@ constexpr std::int64_t kPhysicsVersion = 2;
 /// Of what toSnapshot() writes; a snapshot without one has format 1.
 constexpr std::int64_t kSnapshotFormat = 2;
 
-/// What programs answer to --version: "NAME of hovercraft_sim 0.2.0, physics version 2".
+/// Of the package, as in package.xml.
+HOVERCRAFT_PUBLIC const char* version();
+
+/// Of the sources that this was built from: the first digits of its hash, with "-dirty" where they
+/// had changes; "unknown" where there was no git, and nobody said (HOVERCRAFT_COMMIT).
+HOVERCRAFT_PUBLIC const char* commit();
+
+/// "hovercraft_sim 0.2.0 (commit 1e2f1057fe73)": what scenarios that are written name as
+/// `software`.
+HOVERCRAFT_PUBLIC std::string softwareText();
+
+/// What programs answer to --version: "NAME of " softwareText() ", physics version 2".
 HOVERCRAFT_PUBLIC std::string versionText(const std::string& program);
+
+/// Prints versionText() if --version is among the arguments: for a node, which has no other
+/// options.
+/// @returns whether it was.
+HOVERCRAFT_PUBLIC bool answersVersion(const std::string& program, int argc, char** argv);
 
 }  // namespace hovercraft

@@ -32,8 +32,8 @@ HOVERCRAFT_PUBLIC ActuatorArray<EngineParameters> parametersOf(const VehicleScen
 HOVERCRAFT_PUBLIC std::string actuatorName(const VehicleScenario& vehicle, std::size_t id);
 
 /// Of an engine that the craft has, or of another actuator; nothing of another name.
-HOVERCRAFT_PUBLIC std::optional<std::size_t> actuatorIdOf(const VehicleScenario& vehicle,
-                                                          const std::string& name);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<std::size_t> actuatorIdOf(
+    const VehicleScenario& vehicle, const std::string& name);
 
 /// What they are before the first command.
 HOVERCRAFT_PUBLIC EngineStates initialActuators(const VehicleScenario& vehicle);

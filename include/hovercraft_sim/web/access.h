@@ -25,17 +25,8 @@ struct RequestHead {
 };
 
 /// What a request is answered by.
-enum class Verdict {
-  kPage,
-  kScript,
-  kSocket,
-  kBadRequest,
-  kWrongHost,
-  kWrongOrigin,
-  kWrongToken,
-  kWrongMethod,
-  kNotFound
-};
+enum class [[nodiscard]] Verdict{kPage,        kScript,     kSocket,      kBadRequest, kWrongHost,
+                                 kWrongOrigin, kWrongToken, kWrongMethod, kNotFound};
 
 /// The pages are two names of this list and no others: no path leads to a file.
 ///
@@ -47,7 +38,7 @@ HOVERCRAFT_PUBLIC Verdict verdictOn(const RequestHead& request, const AccessRule
 
 /// "NAME", "1.2.3.4" or "[::1]" of a Host field, in lower case, without its port; nothing if it is
 /// no such field.
-HOVERCRAFT_PUBLIC std::optional<std::string> hostWithoutPort(std::string_view field);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<std::string> hostWithoutPort(std::string_view field);
 
 /// In a time that does not tell where they differ. @param said what somebody says the token is.
 HOVERCRAFT_PUBLIC bool isToken(std::string_view said, std::string_view token);

@@ -48,6 +48,7 @@ constexpr std::size_t kMostNameBytes = 48;
 
 /// @param text UTF-8, as it came. @returns nothing if it is not one of the messages above, to the
 /// last key: a key too many is as wrong as one too few.
-HOVERCRAFT_PUBLIC std::optional<ClientMessage> parseClientMessage(std::string_view text);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<ClientMessage> parseClientMessage(
+    std::string_view text);
 
 }  // namespace hovercraft_ros

@@ -38,7 +38,9 @@ class HOVERCRAFT_PUBLIC DriverSeats {
   /// Drivers who have said nothing for longer than kLapseNs leave. @returns whether one did.
   bool lapse(std::int64_t now_ns);
 
-  std::optional<ViewerId> driver(std::size_t craft) const { return seats_[craft].driver; }
+  [[nodiscard]] std::optional<ViewerId> driver(std::size_t craft) const {
+    return seats_[craft].driver;
+  }
   std::size_t size() const { return seats_.size(); }
 
  private:

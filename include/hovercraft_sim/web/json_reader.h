@@ -23,6 +23,6 @@ constexpr std::size_t kMostJsonKeys = 32;
 /// Reads one JSON object (RFC 8259) with nothing behind it. @param text UTF-8. @returns nothing if
 /// it is no JSON, a key stands twice, a number is not finite as a double, or it holds what a
 /// message never does: null, lists, objects within objects within it, more than kMostJsonKeys keys.
-HOVERCRAFT_PUBLIC std::optional<JsonObject> readJson(std::string_view text);
+[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<JsonObject> readJson(std::string_view text);
 
 }  // namespace hovercraft_ros

@@ -59,7 +59,7 @@ class HOVERCRAFT_PUBLIC SimulationLink {
   /// A scenario that has come since the last call.
   std::shared_ptr<const LiveScene> takeScene();
   /// The state, if there is a newer one than at the last call.
-  std::optional<LiveState> takeState();
+  [[nodiscard]] std::optional<LiveState> takeState();
   LivePace pace() const;
 
   /// @returns false if too much is asked for already.

@@ -58,7 +58,7 @@ class HOVERCRAFT_PUBLIC WebNode {
   void stopCraft();
   void showSeats();
   void showPace();
-  std::optional<std::size_t> craftNamed(const std::string& name) const;
+  [[nodiscard]] std::optional<std::size_t> craftNamed(const std::string& name) const;
   std::string nameOf(ViewerId id) const;
   std::vector<Viewer> viewers() const;
 

@@ -86,8 +86,9 @@ class Scene {
   /// The displacements, m, that take the two bodies `by` metres apart along nhat_AB_W, each in
   /// proportion to its mobility. @param only the one body that may move; -1: both. @returns nothing
   /// if neither can move that way.
-  std::optional<std::array<Vector3, 2>> shiftsApart(const ScenePair& pair, const Vector3& nhat_AB_W,
-                                                    double by, int only) const;
+  [[nodiscard]] std::optional<std::array<Vector3, 2>> shiftsApart(const ScenePair& pair,
+                                                                  const Vector3& nhat_AB_W,
+                                                                  double by, int only) const;
 
  private:
   struct Extent {

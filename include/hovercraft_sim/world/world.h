@@ -45,11 +45,13 @@ class HOVERCRAFT_PUBLIC World {
 
   /// The deepest overlap beyond the tolerance, if there is one. @param body only its pairs; -1:
   /// all.
-  std::optional<WorldOverlap> overlap(const std::vector<BodyState>& states, int body = -1) const;
+  [[nodiscard]] std::optional<WorldOverlap> overlap(const std::vector<BodyState>& states,
+                                                    int body = -1) const;
 
   /// Two bodies without the least gap that a step can start from, if there are some: those that
   /// partTouching() could not part. @param body only its pairs; -1: all.
-  std::optional<WorldOverlap> squeezed(const std::vector<BodyState>& states, int body = -1) const;
+  [[nodiscard]] std::optional<WorldOverlap> squeezed(const std::vector<BodyState>& states,
+                                                     int body = -1) const;
 
   /// The least distance of any two bodies (negative: depth), m; for tests and reports.
   double leastGap(const std::vector<BodyState>& states) const;
@@ -77,8 +79,8 @@ class HOVERCRAFT_PUBLIC World {
   void collectGroups();
   bool listGroup(std::int32_t group);
   bool takeIsland(StepResult& result);
-  std::optional<WorldOverlap> deepest(const std::vector<BodyState>& states, int body,
-                                      double allowed) const;
+  [[nodiscard]] std::optional<WorldOverlap> deepest(const std::vector<BodyState>& states, int body,
+                                                    double allowed) const;
   bool partPair(std::vector<BodyState>& states, const ScenePair& pair, double wanted,
                 int only) const;
   bool stepGroups(const std::vector<StepInputs>& inputs, const std::vector<BodyState>& states,
