@@ -152,7 +152,7 @@ def check_programs(page, folder, environment):
     text = section(page, 'Programs')
     table = {names(row[0])[0]: {option for option in names(row[1]) if option.startswith('--')} for row in rows(text)[1:]}
     sources = {path.stem for path in pathlib.Path('src/tools').glob('*.cpp')} | {path.name for path in pathlib.Path('scripts').glob('plot_*.py')
-                                                                                 if (folder / path.name).exists()}
+                                                                                 if (folder / path.name).exists()} | {'study.py'}
     compare('Programs', set(table) - {'pilot'}, sources)
     for name in set(table) & (sources | {'pilot'}):
         offered = set(re.findall(r'^  .*?(--[a-z][a-z-]*)', run(environment, str(folder / name), '--help'), re.MULTILINE))

@@ -10,6 +10,8 @@ import re
 import sys
 import time
 
+from hovercraft_sim.version import answer_version
+
 
 def parse(arguments):
     """The options of the command line."""
@@ -22,6 +24,7 @@ def parse(arguments):
     parser.add_argument('--shard', metavar='I/N', help='fly only the I-th of N parts, from 1')
     parser.add_argument('--merge', action='store_true', help='make one study of all parts that were flown by --shard')
     parser.add_argument('--run', type=int, metavar='NUMBER', help='fly one run of the study again, as a bag')
+    parser.add_argument('--version', action='store_true', help='of the package, and of the physics')
     options = parser.parse_args(arguments)
     alone = [name for name in ('run', 'merge') if getattr(options, name) not in (None, False)]
     others = [name for name in ('workers', 'scheduler', 'shard', 'resume') if getattr(options, name) not in (None, False)]
@@ -136,6 +139,7 @@ def fly_one(plan, options):
 
 def main(arguments=None):
     """Exit status 0 if all was flown, 1 if something is wrong, 130 after Ctrl-C."""
+    answer_version(arguments)
     options = parse(arguments)
     try:
         from hovercraft_core.studies.plan import Plan

@@ -5,7 +5,7 @@ import threading
 from .flight import Flyer
 from .workers import died_row
 
-BATCH_LIMIT = 200      # runs of one task
+BATCH_LIMIT = 1000     # runs of one task
 BATCHES_PER_THREAD = 8
 _own = threading.local()
 

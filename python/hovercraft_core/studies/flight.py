@@ -1,5 +1,7 @@
 """One flight of a study: from a row of the design to a row of results."""
+import collections
 import json
+import math
 import os
 import sys
 import types
@@ -49,6 +51,7 @@ class Flight:
         self.names = [craft.name for craft in simulation._crafts] + simulation._bodies
         self.function = functions
         self.origin_parts = None
+        self.signals = {}  # those that a metric has asked for
 
     @property
     def origin(self):
@@ -127,7 +130,7 @@ class Flyer:
         """
         every = every or self.plan.every
         values = dict(zip(self.plan.columns(), (json.loads(cell) for cell in cells)))
-        simulation, held = self._simulation(values)
+        simulation, held = self._simulation(dict(zip(self.plan.columns(), cells)), values["seed"])
         start = simulation._core.save()
         changes = self._changes(simulation, values)
         loop = _ClosedLoop(self, simulation, held, values, changes) if self.plan.control_ticks else None
@@ -157,12 +160,12 @@ class Flyer:
         bags().write_bag(path, origin.scenario_yaml, origin.snapshot(), origin.commands, origin.last_tick, origin.every)
         return said or "ok"
 
-    def _simulation(self, values):
-        changes = [f"{key}={json.dumps(values[key])}" for key in self.plan.keys
-                   if key != "seed" and not key.startswith("command_")]
+    def _simulation(self, cells, seed):
+        """(simulation, scenario). :param cells: JSON texts by key."""
+        changes = [f"{key}={cells[key]}" for key in self.plan.keys if key != "seed" and not key.startswith("command_")]
         try:
             held = self.base.with_values("; ".join(changes)) if changes else self.base
-            return Simulation(Scenario(held), values["seed"]), held
+            return Simulation(Scenario(held), seed), held
         except ValueError as error:
             raise Failure("refused", str(error)) from None
 
@@ -211,18 +214,20 @@ class _ClosedLoop:
     def rows(self):
         """All commands of the flight."""
         core, plan = self.simulation._core, self.plan
-        waiting = []
+        waiting = collections.deque()  # a command acts later where there is a delay
         result = None
         while core.tick() < plan.last_tick:
             tick = core.tick()
             count = min(plan.control_ticks, plan.last_tick - tick)
             rows = self.changes.of(self._decide(result))
-            self.made.append(rows)
-            waiting.append(rows)
-            due = np.concatenate(waiting)
-            now = due["tick"] < tick + count
-            waiting = [due[~now]]
-            result = core.run(due[now], count * plan.step_ns / 1e9, count)
+            if len(rows):
+                self.made.append(rows)
+                waiting.append(rows)
+            due = []
+            while waiting and int(waiting[0]["tick"][0]) < tick + count:
+                due.append(waiting.popleft())
+            due = due[0] if len(due) == 1 else np.concatenate([self.made[0], *due])
+            result = core.run(due, count * plan.step_ns / 1e9, count)
         return np.concatenate(self.made)
 
     def _decide(self, result):
@@ -244,19 +249,24 @@ class _ClosedLoop:
         if not by_craft and len(crafts) > 1:
             raise ValueError("with several craft a controller must return a dict of dicts")
         described = commands if by_craft else {crafts[0].name: commands}
-        rows = np.zeros(len(described), dtype=_arrays.COMMAND)
+        rows = []
         names = [craft.name for craft in crafts]
-        for row, (name, thrusts) in zip(rows, described.items()):
+        for name, thrusts in described.items():
             if name not in names:
                 raise ValueError(f"vehicle {name}: must be one of: {', '.join(names)}")
-            craft = crafts[names.index(name)]
-            row["tick"], row["vehicle"] = tick, names.index(name)
-            for actuator, value in thrusts.items():
-                if actuator not in craft.ids:
-                    raise ValueError(f"{actuator}: must be one of: {', '.join(craft.ids)}")
-                row["actuators"] |= 1 << craft.ids[actuator]
-                row["values"][craft.ids[actuator]] = float(value)
-        if not np.all(np.isfinite(rows["values"])):
-            raise ValueError("commands must be finite")
-        return rows
+            rows.append((tick, names.index(name), *_values(crafts[names.index(name)], thrusts)))
+        return np.array(rows, dtype=_arrays.COMMAND)
+
+
+def _values(craft, thrusts):
+    """(mask, values by id) of commands by name."""
+    mask, values = 0, [0.0] * _arrays.COMMAND["values"].shape[0]
+    for actuator, value in thrusts.items():
+        if actuator not in craft.ids:
+            raise ValueError(f"{actuator}: must be one of: {', '.join(craft.ids)}")
+        mask |= 1 << craft.ids[actuator]
+        values[craft.ids[actuator]] = float(value)
+    if not all(map(math.isfinite, values)):
+        raise ValueError("commands must be finite")
+    return mask, values
 

@@ -34,6 +34,12 @@ def _yaw(states):
 
 def signal(flight, craft, name):
     """The numbers of a signal, one an output. :param flight: a Flight. :param craft: its index. :param name: of names()."""
+    if (craft, name) not in flight.signals:
+        flight.signals[craft, name] = _signal(flight, craft, name)
+    return flight.signals[craft, name]
+
+
+def _signal(flight, craft, name):
     states = flight.states(craft)
     first, _, second = name.partition(".")
     if first in VECTORS:
