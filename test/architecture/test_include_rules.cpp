@@ -57,7 +57,7 @@ const std::map<std::string, Rule>& rules() {
         {"fmt/", "yaml-cpp/", "png.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros",
        {{"math", "geometry", "body", "cushion", "hovercraft", "control", "pilot", "sensors", "sim"},
-        of_ros + Names{"unistd.h"}}},
+        of_ros + Names{"unistd.h", "XmlRpcClient.h", "XmlRpcValue.h"}}},
       {"report",
        {{"math", "geometry", "body", "cushion", "hovercraft", "sensors", "sim", "ros"},
         of_ros + Names{"zlib.h"}}},

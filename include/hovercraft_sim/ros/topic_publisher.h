@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 
 #include <ros/publication.h>
 #include <ros/publisher.h>
@@ -19,8 +18,8 @@ class TopicPublisher {
  public:
   TopicPublisher() = default;
   // NOLINTNEXTLINE(google-explicit-constructor): stands in the place of what advertise() returns
-  TopicPublisher(ros::Publisher publisher)
-      : publisher_(std::move(publisher)),
+  TopicPublisher(const ros::Publisher& publisher)
+      : publisher_(publisher),
         publication_(ros::TopicManager::instance()->lookupPublication(publisher_.getTopic())) {}
 
   explicit operator bool() const { return static_cast<bool>(publication_); }
