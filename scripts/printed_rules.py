@@ -126,6 +126,9 @@ RULES = (
     # doc/identify.md
     Rule(r'rosrun hovercraft_sim identify\.py .*', skip=NO_PYTHON, says=r'drag\.linear\[0\] +0\.8 '),
     Rule(r'identify\.py run_1\.bag run_2\.bag .*|scripts/check_python .*', skip='it takes minutes; scripts/check_python does the like'),
+    # doc/studies.md
+    Rule(r'rosrun hovercraft_sim study\.py config/studies/heading\.yaml .*|rosrun hovercraft_sim report run_12\.bag', skip=NO_PYTHON),
+    Rule(r'dask-(scheduler|worker) .*|sbatch .*|rosrun hovercraft_sim study\.py STUDY\.yaml .*', skip='there are no other machines'),
     # doc/report.md
     Rule(r'xdg-open .*', skip='it opens a window'),
     Rule(r'node web/.*|cd web && .*', skip="it needs npm's network; scripts/check_page does it"),

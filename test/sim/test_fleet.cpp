@@ -45,8 +45,10 @@ TEST(Fleet, IsTheScenarioWrittenOutToTheLastLetter) {
   // 12 craft: fleet_10 stands before fleet_2, in the order of names. 0.1 + 3 * 0.7 is not 2.2.
   std::string written;
   for (int i = 0; i < 12; ++i) {
+    const int row = i / 4;
+    const int column = i % 4;
     const std::string place =
-        fmt::format("[{:.17g}, {:.17g}, 0]", 0.1 + (i % 4) * 0.7, -0.2 + (i / 4) * 0.7);
+        fmt::format("[{:.17g}, {:.17g}, 0]", 0.1 + column * 0.7, -0.2 + row * 0.7);
     written += fmt::format("  fleet_{}: {}\n", i + 1, craftOf(movingFrom(place)));
   }
   const Scenario expected = parsed(scenarioWith(written));
