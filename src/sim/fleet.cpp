@@ -55,8 +55,9 @@ class Places {
   /// From the first place to this one, m, in W.
   Vector3 offset(std::int64_t place) const {
     if (columns_ == 0) return static_cast<double>(place) * line_;
-    return {static_cast<double>(place % columns_) * distance_,
-            static_cast<double>(place / columns_) * distance_, 0.0};
+    const std::int64_t row = place / columns_;
+    return {static_cast<double>(place % columns_) * distance_, static_cast<double>(row) * distance_,
+            0.0};
   }
 
  private:
@@ -129,8 +130,8 @@ class Writer {
     const ConfigNode* const like = node.find("like");
     const bool has_own_motion = fleet.has("initial");
     if (like == nullptr || !like->isText()) {
-      const ConfigReader reader = fleet.map("like");
-      return {*like, reader, has_own_motion, 0};
+      const ConfigReader reader = fleet.map("like");  // fails if there is none
+      return {like == nullptr ? ConfigNode::ofMap({}) : *like, reader, has_own_motion, 0};
     }
     const ConfigNode* const craft = vehicles_.find(like->text());
     if (craft == nullptr || isFleet(*craft)) {
