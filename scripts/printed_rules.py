@@ -21,7 +21,7 @@ Rule = collections.namedtuple('Rule', 'pattern skip until stays beside drive the
 
 DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/reference.md', 'doc/time.md', 'doc/contact.md', 'doc/collision.md', 'doc/physics.md', 'doc/report.md',
              'doc/sensors.md', 'doc/helm.md', 'doc/craft.md', 'doc/manoeuvres.md', 'doc/rviz.md', 'doc/api.md', 'doc/accuracy.md', 'doc/tutorial.md', 'doc/cookbook.md',
-             'doc/web.md', 'doc/python.md', 'doc/identify.md', 'doc/install.md')
+             'doc/web.md', 'doc/python.md', 'doc/identify.md', 'doc/install.md', 'doc/studies.md')
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # Programs of a reader's own machine, which need not be here.
