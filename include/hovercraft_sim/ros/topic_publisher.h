@@ -26,7 +26,7 @@ class TopicPublisher {
   explicit operator bool() const { return static_cast<bool>(publication_); }
   /// Whether a message goes anywhere: to a subscriber, or to those to come if the topic is latched.
   bool isHeard() const {
-    return publication_ && (publication_->hasSubscribers() || publication_->isLatching());
+    return publication_ && (publication_->hasSubscribers() || publisher_.isLatched());
   }
   std::uint32_t subscribers() const { return publication_ ? publication_->getNumSubscribers() : 0; }
   /// The full name of the topic.
@@ -43,7 +43,11 @@ class TopicPublisher {
   /// Publishes without another look whether anyone hears it.
   template <class Message>
   void send(const Message& message) const {
-    if (publication_) publication_->enqueueMessage(ros::serialization::serializeMessage(message));
+    if (publisher_.isLatched()) {
+      publisher_.publish(message);  // it is the ros::Publisher that keeps the last message
+    } else if (publication_) {
+      publication_->enqueueMessage(ros::serialization::serializeMessage(message));
+    }
   }
   /// Counts a message that nobody would hear as published.
   void skip() const {
