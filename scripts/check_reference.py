@@ -34,6 +34,7 @@ PROBES = [('Scenario file', 'hovercraft', path) for path in (
         CRAFT + 'parts=[{{cylinder: {{{}: 1}}, mass: 1}}]', CRAFT + 'parts=[{{cone: {{{}: 1}}, mass: 1}}]',
         CRAFT + 'parts=[{{mesh: {{{}: 1}}, mass: 1}}]')] + [
     ('Scenario file', 'gusts', 'vehicles.mvwt.drag.polar.{}')] + [
+    ('Fleets', 'hovercraft', 'vehicles.fleet={{count: 2, like: hovercraft, spacing: 1, {}: 1}}')] + [
     ('Actuators', 'vectored_fans', CRAFT + 'actuators.fl={{kind: ' + kind + ', {}: 1}}')
     for kind in ('fan', 'propeller', 'lift_fan', 'rudder')] + [
     ('Gusts', 'gusts', 'gusts.{}'), ('Gusts', 'gusts', 'gusts.along.{}')] + [('World', 'crates', path) for path in (
@@ -151,7 +152,7 @@ def check_programs(page, folder, environment):
     text = section(page, 'Programs')
     table = {names(row[0])[0]: {option for option in names(row[1]) if option.startswith('--')} for row in rows(text)[1:]}
     sources = {path.stem for path in pathlib.Path('src/tools').glob('*.cpp')} | {path.name for path in pathlib.Path('scripts').glob('plot_*.py')
-                                                                                 if (folder / path.name).exists()}
+                                                                                 if (folder / path.name).exists()} | {'study.py'}
     compare('Programs', set(table) - {'pilot'}, sources)
     for name in set(table) & (sources | {'pilot'}):
         offered = set(re.findall(r'^  .*?(--[a-z][a-z-]*)', run(environment, str(folder / name), '--help'), re.MULTILINE))

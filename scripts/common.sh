@@ -46,7 +46,7 @@ system_family() {
 }
 
 # The packages for one purpose: core (without ROS), core_test, build (and run), test, lint, demo, papers (plot_run.py), python (the package
-# hovercraft_core, identify), web, rviz.
+# hovercraft_core, identify, study), web, rviz.
 packages_for() {
   local common
   case "$1" in
@@ -86,6 +86,8 @@ packages_of_debian() {
       python3-rostopic rosbash rosout ;;
     # The runtime of clang's sanitizers; before, it was part of what clang depends on.
     clang) case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac ;;
+    # Without what it recommends 3 MB: a study on a cluster is tested.
+    python) echo python3-distributed ;;
     demo) echo python3-rostest ;;
     test) echo librostest-dev python3-rosnode python3-rosmsg python3-tf2-ros ;;
     rviz) echo rviz ;;

@@ -18,6 +18,7 @@
 #include "hovercraft_sim/python/recorder.h"
 #include "hovercraft_sim/python/rows.h"
 #include "hovercraft_sim/python/stepped_simulation.h"
+#include "hovercraft_sim/python/studies.h"
 #include "hovercraft_sim/sim/closest_report.h"
 #include "hovercraft_sim/sim/commands_csv.h"
 #include "hovercraft_sim/sim/compare.h"
@@ -112,6 +113,12 @@ void bindScenario(py::module_& module) {
            py::arg("text"), py::arg("name"), py::arg("directory"), py::arg("package_folder"))
       .def_static("load", &HeldScenario::load)
       .def("set", &HeldScenario::set)
+      .def("with_values",
+           [](const HeldScenario& self, const std::string& assignments) {
+             HeldScenario changed(self);
+             changed.set(assignments);
+             return changed;
+           })
       .def("yaml", [](const HeldScenario& self) { return toYaml(*self.scenario()); })
       .def("step_ns", [](const HeldScenario& self) { return self.scenario()->step_ns; })
       .def("seed", [](const HeldScenario& self) { return self.scenario()->seed; })
@@ -124,6 +131,13 @@ void bindScenario(py::module_& module) {
              return list;
            })
       .def("limits", limitsOf)
+      .def("obstacles",
+           [](const HeldScenario& self) -> std::optional<std::vector<std::string>> {
+             if (!self.scenario()->world) return std::nullopt;
+             std::vector<std::string> names;
+             for (const auto& one : self.scenario()->world->obstacles) names.push_back(one.name);
+             return names;
+           })
       .def("bodies", [](const HeldScenario& self) {
         std::vector<std::string> names;
         if (self.scenario()->world) {
@@ -341,6 +355,7 @@ PYBIND11_MODULE(_core, module) {
   registerRows();
   bindScenario(module);
   bindSimulation(module);
+  bindStudies(module);
   module.attr("version") = hovercraft::versionText("hovercraft_core");
   module.def("table_commands", tableCommands);
   module.def("csv_commands", csvCommands);

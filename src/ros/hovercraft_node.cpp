@@ -30,6 +30,13 @@ bool beginsEpisode(const hovercraft_sim::RunEvent& event) {
 
 }  // namespace
 
+volatile std::sig_atomic_t HovercraftNode::is_stopped = 0;
+
+/// ros::ok() holds until the callbacks have ended, also the one that asks.
+bool HovercraftNode::goesOn() {
+  return is_stopped == 0 && ros::ok() && !ros::isShuttingDown();
+}
+
 void HovercraftNode::setRealTimeFactor(double real_time_factor) {
   catchUp();
   config_.real_time_factor = real_time_factor;
@@ -60,7 +67,7 @@ void HovercraftNode::resume() {
 void HovercraftNode::run() {
   restartPace();
   pace_.restart(steadyNow());
-  while (ros::ok()) {
+  while (goesOn()) {
     ros::WallDuration timeout;
     timeout.fromNSec(waitNs(steadyNow()));
     ros::getGlobalCallbackQueue()->callAvailable(timeout);
@@ -177,8 +184,7 @@ void HovercraftNode::awaitCommands() {
 
 void HovercraftNode::stepPaused(std::uint32_t steps) {
   for (std::uint32_t i = 0; i < steps; ++i) {
-    // ros::ok() holds until the callbacks have ended, this one too.
-    if (!ros::ok() || ros::isShuttingDown()) {
+    if (!goesOn()) {
       throw std::runtime_error(fmt::format("the node shuts down after {} of {} steps", i, steps));
     }
     stepOnce();
@@ -192,26 +198,43 @@ bool HovercraftNode::stands() const {
   return isIdle() && !borrows_stamp;
 }
 
-/// Fills every message of the present tick.
+/// From what the craft and the loose bodies have filled.
 void HovercraftNode::gatherTransforms() {
   transforms_message_.transforms.clear();
   for (const auto& vehicle : vehicles_) {
-    vehicle->refresh();
     if (vehicle->messages().hasTransform()) {
       transforms_message_.transforms.push_back(vehicle->messages().transform());
     }
   }
-  for (BodyMessages& body : bodies_) {
-    body.fill(run_.simulation(), run_.headerStamp());
+  for (const BodyMessages& body : bodies_) {
     transforms_message_.transforms.push_back(body.transform());
   }
 }
 
+/// Likewise.
+void HovercraftNode::gatherStates() {
+  states_message_.header.stamp = run_.headerStamp();
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    states_message_.states[i] = vehicles_[i]->messages().state();
+  }
+}
+
 void HovercraftNode::publishState() {
-  gatherTransforms();
-  for (const auto& vehicle : vehicles_) vehicle->publish();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) body_poses_[i].publish(bodies_[i].pose());
-  if (!transforms_message_.transforms.empty()) transforms_.publish(transforms_message_);
+  // Asked once, as in VehicleInterface::publish().
+  MessageParts of_all;
+  of_all.frames = transforms_.isHeard();
+  of_all.state = states_.isHeard();
+  for (const auto& vehicle : vehicles_) vehicle->publish(of_all);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const bool is_heard = body_poses_[i].isHeard();
+    if (is_heard || of_all.frames) bodies_[i].fill(run_.simulation(), run_.headerStamp());
+    body_poses_[i].publishIf(is_heard, bodies_[i].pose());
+  }
+  if (of_all.frames) gatherTransforms();
+  const bool is_empty = of_all.frames && transforms_message_.transforms.empty();
+  if (!is_empty) transforms_.publishIf(of_all.frames, transforms_message_);
+  if (of_all.state) gatherStates();
+  states_.publishIf(of_all.state, states_message_);
   if (clock_) clock_->publishIfDue(run_.headerStamp(), steadyNow(), false);
 }
 

@@ -7,6 +7,7 @@
 #include "hovercraft_sim/ros/hovercraft_node.h"
 #include "hovercraft_sim/ros/robot_description.h"
 #include "hovercraft_sim/sim/occupancy.h"
+#include "hovercraft_sim/sim/scenario_names.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
 
 /// What a node advertises, and what it tells who subscribes; hovercraft_node.cpp has what it does.
@@ -17,6 +18,7 @@ namespace {
 constexpr std::uint32_t kContactQueue = 10000;  // every contact belongs in a recording
 constexpr std::uint32_t kBodyQueue = 10;
 constexpr std::uint32_t kTransformQueue = 100;
+constexpr std::uint32_t kStatesQueue = 100;  // as the states of each craft
 constexpr std::uint32_t kEventQueue = 1000;  // every event belongs in a recording
 constexpr std::uint32_t kTelemetryQueue = 10;
 constexpr std::uint32_t kClockQueue = 10;
@@ -59,11 +61,13 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
   if (config_.scenario.world) {
     contacts_ = own.advertise<hovercraft_sim::Contact>("contacts", kContactQueue);
     run_.simulation().on_contact = [this](const hovercraft::ContactEvent& event) {
+      if (!contacts_.isHeard()) return contacts_.skip();
       contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.frames.world));
     };
   }
   addSensors(handle);
   advertiseTransforms(handle);
+  advertiseStates(own);
   scenario_ = own.advertise<std_msgs::String>("scenario", 1, true);
   events_ = own.advertise<hovercraft_sim::RunEvent>("events", kEventQueue);
   telemetry_ = own.advertise<hovercraft_sim::Telemetry>("telemetry", kTelemetryQueue);
@@ -93,7 +97,7 @@ void HovercraftNode::addBody(const ros::NodeHandle& handle, std::size_t body) {
   ros::NodeHandle space(handle, bodies_[body].name());
   const auto present = [this, body]() -> const geometry_msgs::PoseStamped* {
     if (!stands()) return nullptr;
-    gatherTransforms();
+    bodies_[body].fill(run_.simulation(), run_.headerStamp());
     return &bodies_[body].pose();
   };
   body_poses_.emplace_back(space, kPoseTopic, kBodyQueue, present);
@@ -113,10 +117,29 @@ void HovercraftNode::addSensors(const ros::NodeHandle& handle) {
 void HovercraftNode::advertiseTransforms(ros::NodeHandle handle) {
   const auto present = [this]() -> const tf2_msgs::TFMessage* {
     if (!stands()) return nullptr;
+    MessageParts parts;
+    parts.frames = true;
+    for (const auto& vehicle : vehicles_) vehicle->refresh(parts);
+    for (BodyMessages& body : bodies_) body.fill(run_.simulation(), run_.headerStamp());
     gatherTransforms();
     return &transforms_message_;
   };
   transforms_ = {handle, "/tf", kTransformQueue, present};
+}
+
+void HovercraftNode::advertiseStates(ros::NodeHandle& own) {
+  states_message_.header.frame_id = config_.frames.world;
+  states_message_.names = hovercraft::vehicleNames(config_.scenario);
+  states_message_.states.resize(vehicles_.size());
+  const auto present = [this]() -> const hovercraft_sim::States* {
+    if (config_.lockstep || !stands()) return nullptr;
+    MessageParts parts;
+    parts.state = true;
+    for (const auto& vehicle : vehicles_) vehicle->refresh(parts);
+    gatherStates();
+    return &states_message_;
+  };
+  states_ = {own, kStatesTopic, kStatesQueue, present, config_.lockstep};
 }
 
 void HovercraftNode::addReports(ros::NodeHandle& own) {
@@ -136,6 +159,7 @@ void HovercraftNode::addReports(ros::NodeHandle& own) {
 Claims HovercraftNode::claims() const {
   Claims claims;
   claims.clock = config_.clock;
+  claims.topics.insert(states_.topic());
   for (const auto& vehicle : vehicles_) {
     for (const std::string& topic : vehicle->topics()) claims.topics.insert(topic);
     if (vehicle->messages().tf() != hovercraft::TfSource::kNone) {

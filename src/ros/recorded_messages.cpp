@@ -121,4 +121,15 @@ boost::shared_ptr<const State> readState(const std::string& path,
   return message;
 }
 
+boost::shared_ptr<const hovercraft_sim::States> readStates(
+    const std::string& path, const rosbag::MessageInstance& instance) {
+  auto message = messageAs<hovercraft_sim::States>(path, instance);
+  const Place place = {path, instance};
+  place.require(message->names.size() == message->states.size(),
+                fmt::format("names and states: must be as many ({} and {} are there)",
+                            message->names.size(), message->states.size()));
+  for (const State& state : message->states) place.requireTick("states.tick", state.tick);
+  return message;
+}
+
 }  // namespace hovercraft_ros

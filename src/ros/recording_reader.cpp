@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/States.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
 
@@ -25,6 +26,7 @@ namespace {
 using hovercraft_sim::AppliedCommand;
 using hovercraft_sim::RunEvent;
 using hovercraft_sim::State;
+using hovercraft_sim::States;
 
 /// Counts from sequence numbers which messages of a topic are missing.
 class SequenceCheck {
@@ -94,13 +96,16 @@ class Reader {
 
   Recording read() {
     readScenario();
+    findOwnTopics();
     rosbag::View view(bag_, rosbag::TypeQuery(std::vector<std::string>{
                                 "hovercraft_sim/AppliedCommand", "hovercraft_sim/RunEvent",
-                                "hovercraft_sim/State"}));
+                                "hovercraft_sim/State", "hovercraft_sim/States"}));
     for (const rosbag::MessageInstance& instance : view) {
       const std::string& type = instance.getDataType();
       if (type == ros::message_traits::DataType<State>::value()) {
         readState(instance);
+      } else if (type == ros::message_traits::DataType<States>::value()) {
+        readStatesOfAll(instance);
       } else if (type == ros::message_traits::DataType<AppliedCommand>::value()) {
         readCommand(instance);
       } else {
@@ -108,7 +113,8 @@ class Reader {
       }
     }
     if (recording_.states.empty()) {
-      throw std::invalid_argument(path_ + ": there is no state (hovercraft_sim/State) in it");
+      throw std::invalid_argument(path_ +
+                                  ": there is no state (hovercraft_sim/State, States) in it");
     }
     recording_.samples = readSamples(path_, bag_, recording_.scenario);
     sort();
@@ -139,26 +145,54 @@ class Reader {
                                 ": there is no scenario in it (std_msgs/String on ~scenario)");
   }
 
-  std::size_t vehicleOf(const rosbag::MessageInstance& instance) const {
+  std::size_t vehicleOf(const rosbag::MessageInstance& instance) {
+    return vehicleNamed(vehicleOfTopic(instance.getTopic()), instance);
+  }
+
+  std::size_t vehicleNamed(const std::string& name, const rosbag::MessageInstance& instance) {
     try {
-      return vehicleIndex(recording_.scenario, vehicleOfTopic(instance.getTopic()));
+      const auto known = vehicles_.find(name);  // of a fleet the list is long
+      if (known != vehicles_.end()) return known->second;
+      return vehicles_[name] = vehicleIndex(recording_.scenario, name);
     } catch (const std::invalid_argument& error) {
       failAt(path_, instance, error.what());
     }
   }
 
+  /// Where a bag has both, a craft's own topic counts.
+  void findOwnTopics() {
+    rosbag::View view(bag_, rosbag::TypeQuery("hovercraft_sim/State"));
+    for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+      has_own_topic_.insert(vehicleOfTopic(connection->topic));
+    }
+  }
+
   void readState(const rosbag::MessageInstance& instance) {
     const auto state = hovercraft_ros::readState(path_, instance);
-    const std::size_t vehicle = vehicleOf(instance);
-    const RunTime time = timeOf(*state);
+    takeState(instance, *state, vehicleOf(instance), state->header.seq);
+  }
+
+  void readStatesOfAll(const rosbag::MessageInstance& instance) {
+    const auto message = readStates(path_, instance);
+    for (std::size_t i = 0; i < message->states.size(); ++i) {
+      const std::string& name = message->names[i];
+      if (has_own_topic_.count(name) > 0) continue;
+      takeState(instance, message->states[i], vehicleNamed(name, instance), message->header.seq);
+    }
+  }
+
+  /// @param seq of the message that it came in.
+  void takeState(const rosbag::MessageInstance& instance, const State& state, std::size_t vehicle,
+                 std::uint32_t seq) {
+    const RunTime time = timeOf(state);
     const auto [last, is_first] = last_times_.emplace(vehicle, time);
     if (!is_first && !(last->second < time)) failAsTwoRuns(instance);
     last->second = time;
-    checkStamp(*state, instance);
-    recording_.missing_states += sequences_[vehicle].missingBefore(state->header.seq);
-    commands_[{time.episode, vehicle}].name(state->commands);
-    events_[time.episode].name(state->events);
-    recording_.states.push_back({time, vehicle, *state});
+    checkStamp(state, instance);
+    recording_.missing_states += sequences_[vehicle].missingBefore(seq);
+    commands_[{time.episode, vehicle}].name(state.commands);
+    events_[time.episode].name(state.events);
+    recording_.states.push_back({time, vehicle, state});
   }
 
   void readCommand(const rosbag::MessageInstance& instance) {
@@ -269,6 +303,8 @@ class Reader {
   std::string path_;
   rosbag::Bag bag_;
   Recording recording_;
+  std::map<std::string, std::size_t> vehicles_;                        // that were met, by name
+  std::set<std::string> has_own_topic_;                                // names of craft
   std::map<std::size_t, SequenceCheck> sequences_;                     // of the states, by vehicle
   std::map<std::size_t, RunTime> last_times_;                          // of the states, by vehicle
   std::map<std::pair<std::uint32_t, std::size_t>, Numbers> commands_;  // by episode and vehicle

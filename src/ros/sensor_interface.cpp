@@ -38,9 +38,15 @@ SensorInterface::SensorInterface(const ros::NodeHandle& handle, const LiveRun& r
 }
 
 void SensorInterface::publish(const hovercraft::SensorSample& sample) {
+  const Publishers& own = publishers_[sample.vehicle][sample.sensor];
+  if (!own.message.isHeard() && !(own.velocity && own.velocity.isHeard()) &&
+      !transforms_.isHeard()) {
+    own.message.skip();
+    if (own.velocity) own.velocity.skip();
+    return;
+  }
   SensorMessages& craft = messages_[sample.vehicle];
   const SensorMessage& filled = craft.fill(sample, run_.sampleStamp(sample.measured));
-  const Publishers& own = publishers_[sample.vehicle][sample.sensor];
   std::visit([&own](const auto& message) { own.message.publish(message); }, filled.message);
   if (own.velocity) own.velocity.publish(filled.velocity);
   if (const auto transform = craft.transform(sample.sensor)) {
@@ -54,8 +60,8 @@ std::vector<std::string> SensorInterface::topics() const {
   std::vector<std::string> topics;
   for (const auto& craft : publishers_) {
     for (const Publishers& own : craft) {
-      topics.push_back(own.message.getTopic());
-      if (own.velocity) topics.push_back(own.velocity.getTopic());
+      topics.push_back(own.message.topic());
+      if (own.velocity) topics.push_back(own.velocity.topic());
     }
   }
   return topics;

@@ -66,7 +66,7 @@ NewcomerPublisher<Message> VehicleInterface::advertise(ros::NodeHandle& handle, 
                                                        bool latched) {
   const auto present = [this, message]() -> const Message* {
     if (!owner_.stands()) return nullptr;
-    refresh();
+    refresh(MessageParts::all());
     return &(messages_.*message)();
   };
   return {handle, topic, kStateQueue, present, latched};
@@ -154,23 +154,35 @@ void VehicleInterface::noteSaturation(const hovercraft::Command& command,
 }
 
 std::vector<std::string> VehicleInterface::topics() const {
-  std::vector<std::string> names = {pose_.topic(),       twist_.topic(), odom_.topic(),
-                                    engines_.topic(),    state_.topic(), wind_.topic(),
-                                    commands_.getTopic()};
+  std::vector<std::string> names = {pose_.topic(),    twist_.topic(), odom_.topic(),
+                                    engines_.topic(), state_.topic(), wind_.topic(),
+                                    commands_.topic()};
   if (messages_.hasActuators()) names.push_back(actuators_.topic());
   if (messages_.hasCushion()) names.push_back(cushion_.topic());
   return names;
 }
 
-void VehicleInterface::publish() {
-  pose_.publish(messages_.pose());
-  twist_.publish(messages_.twist());
-  odom_.publish(messages_.odom());
-  engines_.publish(messages_.engines());
-  if (messages_.hasActuators()) actuators_.publish(messages_.actuators());
-  state_.publish(messages_.state());
-  wind_.publish(messages_.wind());
-  if (messages_.hasCushion()) cushion_.publish(messages_.cushion());
+void VehicleInterface::publish(MessageParts others) {
+  // Asked once: who comes in between hears of the next tick, not of what was not filled.
+  const bool pose = pose_.isHeard();
+  const bool twist = twist_.isHeard();
+  const bool odom = odom_.isHeard();
+  const bool actuators = messages_.hasActuators() && actuators_.isHeard();
+  const bool cushion = messages_.hasCushion() && cushion_.isHeard();
+  MessageParts heard;
+  heard.engines = engines_.isHeard();
+  heard.state = state_.isHeard();
+  heard.wind = wind_.isHeard();
+  refresh({others.frames || pose || twist || odom, heard.engines, actuators,
+           others.state || heard.state, heard.wind, cushion});
+  pose_.publishIf(pose, messages_.pose());
+  twist_.publishIf(twist, messages_.twist());
+  odom_.publishIf(odom, messages_.odom());
+  engines_.publishIf(heard.engines, messages_.engines());
+  if (messages_.hasActuators()) actuators_.publishIf(actuators, messages_.actuators());
+  state_.publishIf(heard.state, messages_.state());
+  wind_.publishIf(heard.wind, messages_.wind());
+  if (messages_.hasCushion()) cushion_.publishIf(cushion, messages_.cushion());
 }
 
 void VehicleInterface::publishApplied(const hovercraft::Command& command) {

@@ -67,14 +67,39 @@ VehicleMessages::VehicleMessages(const hovercraft::Scenario& scenario, std::size
   state_.header.frame_id = frames_.world;
 }
 
-void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
-  for (std_msgs::Header* header :
-       {&pose_.header, &twist_.header, &odom_.header, &transform_.header, &engines_.header,
-        &actuators_.header, &state_.header, &cushion_.header, &wind_.header}) {
-    header->stamp = place.stamp;
+void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunStamp& place,
+                           const MessageParts& parts) {
+  enter(place.episode);
+  const bool is_moving_part_wanted = parts.frames || parts.wind || parts.state;
+  if (is_moving_part_wanted) {
+    const hovercraft::Motion motion = simulation.motion(vehicle_);
+    const HullMotion hull = hullMotion(motion, description_.mass_properties.p_HB);
+    if (parts.frames) fillFrames(hull, place.stamp);
+    if (parts.state) fillState(simulation, place, motion);
+    if (parts.wind) {
+      wind_.header.stamp = place.stamp;
+      fillWind(simulation, hull);
+    }
   }
-  const hovercraft::Motion motion = simulation.motion(vehicle_);
-  const HullMotion hull = hullMotion(motion, description_.mass_properties.p_HB);
+  if (parts.engines) {
+    engines_.header.stamp = place.stamp;
+    fillEngines(simulation);
+  }
+  if (parts.actuators) {
+    actuators_.header.stamp = place.stamp;
+    fillActuators(simulation);
+  }
+  if (parts.cushion) {
+    cushion_.header.stamp = place.stamp;
+    if (hasCushion()) fillCushion(simulation);
+  }
+}
+
+void VehicleMessages::fillFrames(const HullMotion& hull, const ros::Time& stamp) {
+  for (std_msgs::Header* header :
+       {&pose_.header, &twist_.header, &odom_.header, &transform_.header}) {
+    header->stamp = stamp;
+  }
   pose_.pose.position = toPointMessage(hull.p_WH);
   pose_.pose.orientation = toQuaternionMessage(hull.q_WH);
   twist_.twist.linear = toVector3Message(hull.v_WH_H);
@@ -83,11 +108,17 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   odom_.twist.twist = twist_.twist;
   transform_.transform.translation = toVector3Message(hull.p_WH);
   transform_.transform.rotation = pose_.pose.orientation;
+}
 
+void VehicleMessages::fillEngines(const hovercraft::Simulation& simulation) {
   engines_.rear = toMessage(simulation.engineReport(vehicle_, 0));
   engines_.left = toMessage(simulation.engineReport(vehicle_, 1));
   engines_.right = toMessage(simulation.engineReport(vehicle_, 2));
+}
 
+void VehicleMessages::fillState(const hovercraft::Simulation& simulation, const RunStamp& place,
+                                const hovercraft::Motion& motion) {
+  state_.header.stamp = place.stamp;
   state_.tick = static_cast<std::uint64_t>(simulation.tick());
   state_.episode = place.episode;
   state_.pose.position = toPointMessage(motion.p_WB);
@@ -96,16 +127,26 @@ void VehicleMessages::fill(const hovercraft::Simulation& simulation, const RunSt
   state_.angular_velocity = toVector3Message(motion.twist.w_WB);
   state_.momentum = toVector3Message(motion.momentum_W);
   state_.angular_momentum = toVector3Message(motion.angular_momentum_W);
-  state_.thrust = {engines_.rear.applied, engines_.left.applied, engines_.right.applied};
-  fillActuators(simulation);
+  const hovercraft::EngineStates& all = simulation.state().engines[vehicle_];
+  for (std::size_t i = 0; i < hovercraft::kEngineCount; ++i) {
+    state_.thrust[i] = simulation.engineReport(vehicle_, static_cast<int>(i)).applied;
+  }
+  for (std::size_t i = 0; i < state_.actuators.size(); ++i) {
+    const auto id = static_cast<int>(hovercraft::kFirstActuator + i);
+    state_.actuators[i] = simulation.engineReport(vehicle_, id).applied;
+  }
+  state_.extra.clear();
+  if (std::any_of(all.begin(), all.end(), [](const auto& one) { return one.isFaulty(); })) {
+    for (const hovercraft::EngineState& actuator : all) {
+      state_.extra.push_back(actuator.efficiency);
+      state_.extra.push_back(actuator.stuck ? 1.0 : 0.0);
+    }
+  }
   state_.energy = motion.energy;
-  enter(place.episode);
   state_.commands = commands_;
   state_.events = place.events;
   state_.hash = simulation.hash(vehicle_);
   state_.sensor_hash = simulation.sensorHash(vehicle_);
-  fillWind(simulation, hull);
-  if (hasCushion()) fillCushion(simulation);
 }
 
 void VehicleMessages::fillWind(const hovercraft::Simulation& simulation, const HullMotion& hull) {
@@ -140,14 +181,6 @@ void VehicleMessages::fillActuators(const hovercraft::Simulation& simulation) {
     status.age = report.command_age;
     status.efficiency = report.efficiency;
     status.stuck = static_cast<std::uint8_t>(report.stuck);
-    state_.actuators[i] = report.applied;
-  }
-  const hovercraft::EngineStates& all = simulation.state().engines[vehicle_];
-  state_.extra.clear();
-  if (std::none_of(all.begin(), all.end(), [](const auto& one) { return one.isFaulty(); })) return;
-  for (const hovercraft::EngineState& actuator : all) {
-    state_.extra.push_back(actuator.efficiency);
-    state_.extra.push_back(actuator.stuck ? 1.0 : 0.0);
   }
 }
 

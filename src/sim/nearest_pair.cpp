@@ -48,6 +48,22 @@ std::optional<NearestPair> NearestPairFinder::find(const std::vector<std::option
   return nearest;
 }
 
+std::optional<double> NearestPairFinder::clearance(std::size_t a,
+                                                   const std::set<std::string>& names,
+                                                   const std::vector<std::optional<Pose>>& X_WH) {
+  const FloatingPointEnvironment environment;
+  if (a >= moving_.size()) return std::nullopt;
+  std::optional<NearestPair> nearest;
+  const auto X_WA = poseOf(a, X_WH);
+  for (std::size_t b = 0; X_WA && b < solids_.size(); ++b) {
+    if (b == a || (!names.empty() && names.count(solids_[b].name) == 0)) continue;
+    const auto X_WB = poseOf(b, X_WH);
+    if (X_WB) compare(a, *X_WA, b, *X_WB, nearest);
+  }
+  if (!nearest) return std::nullopt;
+  return nearest->distance;
+}
+
 std::optional<Pose> NearestPairFinder::poseOf(std::size_t solid,
                                               const std::vector<std::optional<Pose>>& X_WH) const {
   if (solid >= moving_.size()) return Pose();

@@ -15,6 +15,7 @@
 #include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/config_reader.h"
 #include "hovercraft_sim/sim/cushion_parser.h"
+#include "hovercraft_sim/sim/fleet.h"
 #include "hovercraft_sim/sim/ground_parser.h"
 #include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/mesh_parser.h"
@@ -212,21 +213,8 @@ void checkPhysicsVersion(const ConfigReader& reader, bool may_be_older) {
                                              kPhysicsVersion));
 }
 
-}  // namespace
-
-std::int64_t physicsVersionOf(const std::string& text, const std::string& source) {
-  const ConfigNode tree = treeOf(text, source);
-  return ConfigReader(tree, source).wholeNumberOr(1, "physics_version");
-}
-
-Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
-  const FloatingPointEnvironment environment;
-  const ConfigReader reader(tree, source.name);
-  reader.allowOnly({"physics_version", "software", "step_size", "integrator", "orientation",
-                    "model", "gravity", "wind", "gusts", "seed", "vehicles", "world", "ground"});
-  Scenario scenario;
-  checkPhysicsVersion(reader, source.may_be_older);
-  if (reader.has("software")) (void)reader.text("software");  // whatever wrote it
+/// Fills what a scenario has besides bodies and what they meet.
+void parseRun(const ConfigReader& reader, Scenario& scenario) {
   scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
   scenario.integrator = static_cast<Integrator>(reader.choiceOr(
       static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));
@@ -237,13 +225,62 @@ Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   scenario.gravity = reader.vectorOr(Vector3::Zero(), "gravity");
   parseAir(reader, scenario);
   scenario.seed = reader.wholeNumberOr(scenario.seed, "seed");
+}
+
+/// The tree with its fleets written out.
+ConfigNode withFleets(const ConfigNode& tree, const ScenarioSource& source, BodyModel model) {
+  ScenarioSource silent = source;  // the craft written out say what there is to know
+  silent.note = nullptr;
+  const auto check = [&](const ConfigReader& craft) {
+    parseVehicle("craft", craft, silent, model);
+  };
+  ConfigNode::Map members = tree.members();
+  for (auto& [key, value] : members) {
+    if (key == "vehicles") value = withFleetsWrittenOut(value, source.name, check);
+  }
+  return ConfigNode::ofMap(std::move(members));
+}
+
+/// What is to be known of each craft of a fleet is said of its first one.
+ScenarioSource notingOneOfEachFleet(const ScenarioSource& source, const ConfigNode& vehicles) {
+  ScenarioSource result = source;
+  if (!source.note) return result;
+  result.note = [note = source.note, begin = source.name + ": vehicles.",
+                 vehicles](const std::string& text) {
+    const bool is_of_craft = text.compare(0, begin.size(), begin) == 0;
+    const std::size_t end = is_of_craft ? text.find_first_of(". ", begin.size()) : begin.size();
+    const std::string name = text.substr(begin.size(), end - begin.size());
+    if (!is_of_craft || !isLaterOfFleet(vehicles, name)) note(text);
+  };
+  return result;
+}
+
+}  // namespace
+
+std::int64_t physicsVersionOf(const std::string& text, const std::string& source) {
+  const ConfigNode tree = treeOf(text, source);
+  return ConfigReader(tree, source).wholeNumberOr(1, "physics_version");
+}
+
+Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
+  const FloatingPointEnvironment environment;
+  const ConfigReader written(tree, source.name);
+  written.allowOnly({"physics_version", "software", "step_size", "integrator", "orientation",
+                     "model", "gravity", "wind", "gusts", "seed", "vehicles", "world", "ground"});
+  Scenario scenario;
+  checkPhysicsVersion(written, source.may_be_older);
+  if (written.has("software")) (void)written.text("software");  // whatever wrote it
+  parseRun(written, scenario);
+  written.map("vehicles");  // is there
+  const ConfigReader reader(withFleets(tree, source, scenario.model), source.name);
+  const ScenarioSource told = notingOneOfEachFleet(source, *tree.find("vehicles"));
   for (const auto& [name, vehicle] : reader.map("vehicles").maps()) {
-    scenario.vehicles.push_back(parseVehicle(name, vehicle, source, scenario.model));
+    scenario.vehicles.push_back(parseVehicle(name, vehicle, told, scenario.model));
   }
   if (scenario.vehicles.empty()) reader.fail("vehicles", "must name at least one vehicle");
-  scenario.ground = parseGround(reader, source);
-  parseWorld(reader, source, scenario);
-  checkCushions(reader, source, scenario);
+  scenario.ground = parseGround(reader, told);
+  parseWorld(reader, told, scenario);
+  checkCushions(reader, told, scenario);
   checkCommandTopics(reader, scenario);
   parseSensors(reader, scenario);
   return scenario;

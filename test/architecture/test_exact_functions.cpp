@@ -26,7 +26,7 @@ struct NamedPlace {
 
 const std::vector<NamedPlace>& namedPlaces() {
   static const std::vector<NamedPlace> places = {
-      {"src/math/elementary.cpp", "exp", 1, "Boost.Multiprecision's, in integer arithmetic"},
+      {"src/math/elementary.cpp", "exp", 2, "Boost.Multiprecision's, in integer arithmetic"},
       {"src/math/elementary.cpp", "sin", 1, "Boost.Multiprecision's, in integer arithmetic"},
       {"src/math/elementary.cpp", "cos", 1, "Boost.Multiprecision's, in integer arithmetic"},
       {"src/math/elementary.cpp", "atan2", 1, "Boost.Multiprecision's, in integer arithmetic"},

@@ -150,6 +150,9 @@ TEST(Elementary, ValuesAreTheNearestDoubles) {
   // compiler rounds it to the nearest double.
   EXPECT_EQ(exactExp(1.0), 2.7182818284590452354);
   EXPECT_EQ(exactExp(-1.0), 0.36787944117144232160);
+  EXPECT_EQ(exactLog(10.0), 2.3025850929940456840);
+  EXPECT_EQ(exactLog(0.1), -2.3025850929940456284);  // of the double next to 0.1
+  EXPECT_EQ(exactLog(1.0), 0.0);
   EXPECT_EQ(exactSin(1.0), 0.84147098480789650665);
   EXPECT_EQ(exactCos(1.0), 0.54030230586813971740);
   EXPECT_EQ(exactAtan2(1.0, 1.0), 0.78539816339744830962);

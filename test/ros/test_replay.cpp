@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/States.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <std_msgs/String.h>
@@ -266,6 +267,71 @@ void writeBag(const Recording& recording, const std::vector<std::string>& names,
     if (lost.events.count(i) > 0) continue;
     bag.write("/hovercraft_sim/events", time, recording.events[i]);
   }
+}
+
+/// Gathers the states of one tick of a bag into one message of all craft, as the node's ~states.
+/// @param kept craft whose own topic stays as well.
+void gatherStates(const std::string& from, const std::string& to, const std::string& kept) {
+  rosbag::Bag bag(from, rosbag::bagmode::Read);
+  rosbag::Bag result(to, rosbag::bagmode::Write);
+  std::map<RunTime, hovercraft_sim::States> ticks;
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag)) {
+    const auto state = instance.instantiate<hovercraft_sim::State>();
+    if (!state) {
+      result.write(instance.getTopic(), instance.getTime(), instance);
+      continue;
+    }
+    const std::string name = instance.getTopic().substr(1, instance.getTopic().rfind('/') - 1);
+    if (name == kept) result.write(instance.getTopic(), instance.getTime(), *state);
+    auto& all = ticks[{state->episode, static_cast<hovercraft::Tick>(state->tick)}];
+    all.header = state->header;
+    all.names.push_back(name);
+    all.states.push_back(*state);
+  }
+  for (const auto& [time, all] : ticks) {
+    result.write("/hovercraft_sim/states", ros::Time(1, 0), all);
+  }
+}
+
+TEST_F(RecordedRun, IsReplayedFromTheStatesOfAllCraftInOneTopic) {
+  const TestFolder folder;
+  writeBag(recording_, {"alpha", "beta"}, folder.file("each.bag"));
+  std::string of_each;
+  ASSERT_EQ(replayBag({folder.file("each.bag"), "", {}}, of_each), 0) << of_each;
+  for (const char* kept : {"none", "beta"}) {  // where a bag has both, no state counts twice
+    gatherStates(folder.file("each.bag"), folder.file("all.bag"), kept);
+    std::string verdict;
+    EXPECT_EQ(replayBag({folder.file("all.bag"), "", {}}, verdict), 0) << verdict;
+    EXPECT_EQ(verdict, of_each);
+  }
+}
+
+TEST_F(RecordedRun, StatesOfAllCraftThatWereLostAreCounted) {
+  const TestFolder folder;
+  writeBag(recording_, {"alpha", "beta"}, folder.file("each.bag"), {{}, {}, {4, 5, 10, 11}});
+  gatherStates(folder.file("each.bag"), folder.file("all.bag"), "none");
+  std::string verdict;
+  EXPECT_EQ(replayBag({folder.file("all.bag"), "", {}}, verdict), 0);
+  EXPECT_NE(verdict.find("4 states were not recorded"), std::string::npos) << verdict;
+}
+
+TEST_F(RecordedRun, StatesWithoutANameEachAreRefused) {
+  const TestFolder folder;
+  writeBag(recording_, {"alpha", "beta"}, folder.file("run.bag"));
+  {
+    rosbag::Bag bag(folder.file("run.bag"), rosbag::bagmode::Append);
+    hovercraft_sim::States states;
+    states.names = {"alpha", "beta"};
+    states.states.resize(1);
+    bag.write("/hovercraft_sim/states", ros::Time(2, 0), states);
+  }
+  const auto replay = [&] {
+    std::string verdict;
+    replayBag({folder.file("run.bag"), "", {}}, verdict);
+  };
+  EXPECT_NE(messageOf(replay).find("names and states: must be as many (2 and 1 are there)"),
+            std::string::npos)
+      << messageOf(replay);
 }
 
 TEST_F(RecordedRun, GoesThroughABagAndThroughItsOutput) {

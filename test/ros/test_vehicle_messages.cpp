@@ -53,6 +53,30 @@ TEST(VehicleMessages, EveryHeaderHasTheStampAndItsFrame) {
   EXPECT_EQ(messages.name(), "alpha");
 }
 
+TEST(VehicleMessages, WhatIsNotWantedIsNotFilled) {
+  const Simulation simulation = flownSimulation();
+  const VehicleMessages empty(simulation.scenario(), 0);
+  VehicleMessages whole(simulation.scenario(), 0);
+  whole.fill(simulation, {kStampOfAll});
+  VehicleMessages messages(simulation.scenario(), 0);
+  MessageParts parts;
+  parts.state = true;
+  messages.fill(simulation, {kStampOfAll}, parts);
+  EXPECT_EQ(messages.state(), whole.state());
+  EXPECT_EQ(messages.odom(), empty.odom());
+  EXPECT_EQ(messages.engines(), empty.engines());
+  EXPECT_EQ(messages.wind(), empty.wind());
+  parts = MessageParts();
+  parts.frames = parts.wind = true;
+  messages = VehicleMessages(simulation.scenario(), 0);
+  messages.fill(simulation, {kStampOfAll}, parts);
+  EXPECT_EQ(messages.odom(), whole.odom());
+  EXPECT_EQ(messages.pose(), whole.pose());
+  EXPECT_EQ(messages.transform(), whole.transform());
+  EXPECT_EQ(messages.wind(), whole.wind());
+  EXPECT_EQ(messages.state(), empty.state());
+}
+
 TEST(VehicleMessages, EveryFrameButTheWorldHasThePrefix) {
   const Simulation simulation = flownSimulation();
   VehicleMessages messages(simulation.scenario(), 0, {"map", "fleet/red"});

@@ -44,6 +44,17 @@ TEST(NearestPair, IsThatOfTheLeastDistance) {
   EXPECT_NEAR(wall->p_WCb.x(), 10.0, 1e-12);
 }
 
+TEST(NearestPair, ClearanceIsThatOfOneBodyToThoseThatAreNamed) {
+  NearestPairFinder finder(testing::scenarioOf(cubesAndWall()));
+  const std::vector<std::optional<Pose>> poses = {at(0.0, 0.0), at(3.0, 0.0)};
+  EXPECT_NEAR(*finder.clearance(0, {}, poses), 2.0, 1e-12);
+  EXPECT_NEAR(*finder.clearance(0, {"wall"}, poses), 9.5, 1e-12);
+  EXPECT_NEAR(*finder.clearance(1, {}, poses), 2.0, 1e-12);
+  EXPECT_NEAR(*finder.clearance(1, {"wall"}, poses), 6.5, 1e-12);
+  EXPECT_FALSE(finder.clearance(0, {"alpha"}, poses));
+  EXPECT_FALSE(finder.clearance(2, {}, poses));
+}
+
 TEST(NearestPair, LeavesOutWhatIsNotKnown) {
   NearestPairFinder finder(testing::scenarioOf(cubesAndWall()));
   const auto pair = finder.find({std::nullopt, at(3.0, 0.0)});

@@ -11,7 +11,7 @@ enum class [[nodiscard]] ImpactStatus{
     kImpact,       // at `time` they are `tolerance` apart or less, and have not met before
     kOverlapping,  // they overlap at t = 0 already
     kQueryLimit    // the bound on the number of queries was reached, or one found no answer; they
-                 // have not met before `time`
+                   // have not met before `time`
 };
 
 /// How to search for the time of impact. All are never late.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// exp, sin, cos and the like for what determines a state.
+/// exp, log, sin, cos and the like for what determines a state.
 ///
 /// The C library's versions differ in the last bit between processors and releases (it picks a
 /// variant with fused multiply-add where there is one). These are computed with 113 bits in integer
@@ -14,6 +14,9 @@ namespace hovercraft {
 
 /// @param x any finite number.
 HOVERCRAFT_PUBLIC double exactExp(double x);
+
+/// The natural logarithm. @param x finite, > 0.
+HOVERCRAFT_PUBLIC double exactLog(double x);
 
 /// @param angle rad, finite.
 HOVERCRAFT_PUBLIC double exactSin(double angle);

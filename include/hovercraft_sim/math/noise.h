@@ -38,10 +38,15 @@ class HOVERCRAFT_PUBLIC NoiseChannel {
   NoiseChannel(std::int64_t seed, std::uint32_t stream)
       : key_{lowWord(seed), highWord(seed)}, stream_(stream) {}
 
-  /// A standard normal variate. @param draw its number among those of this tick.
-  double normal(Tick tick, std::uint32_t draw = 0) const {
+  /// 64 random bits. @param draw its number among those of this tick.
+  std::uint64_t bits(Tick tick, std::uint32_t draw = 0) const {
     const PhiloxCounter words = wordsOf(tick, draw);
-    return normalFromBits((std::uint64_t{words[1]} << 32U) | words[0]);
+    return (std::uint64_t{words[1]} << 32U) | words[0];
+  }
+
+  /// A standard normal variate, of bits().
+  double normal(Tick tick, std::uint32_t draw = 0) const {
+    return normalFromBits(bits(tick, draw));
   }
 
   /// Two independent ones of one draw, of which the first is normal().
@@ -54,9 +59,7 @@ class HOVERCRAFT_PUBLIC NoiseChannel {
   /// Uniform in [0, 1): a multiple of 2^-53.
   double uniform(Tick tick, std::uint32_t draw = 0) const {
     constexpr double kUnit = 1.0 / 9007199254740992.0;  // 2^-53
-    const PhiloxCounter words = wordsOf(tick, draw);
-    const std::uint64_t bits = (std::uint64_t{words[1]} << 32U) | words[0];
-    return static_cast<double>(bits >> 11U) * kUnit;
+    return static_cast<double>(bits(tick, draw) >> 11U) * kUnit;
   }
 
  private:

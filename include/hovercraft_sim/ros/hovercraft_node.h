@@ -1,5 +1,6 @@
 #pragma once
 
+#include <csignal>
 #include <cstdint>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <hovercraft_sim/RunEvent.h>
+#include <hovercraft_sim/States.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/wall_timer.h>
@@ -26,6 +28,7 @@
 #include "hovercraft_sim/ros/pace_report.h"
 #include "hovercraft_sim/ros/pacer.h"
 #include "hovercraft_sim/ros/sensor_interface.h"
+#include "hovercraft_sim/ros/topic_publisher.h"
 #include "hovercraft_sim/ros/vehicle_interface.h"
 #include "hovercraft_sim/ros/warning_limiter.h"
 
@@ -44,8 +47,11 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   HovercraftNode(const HovercraftNode&) = delete;
   HovercraftNode& operator=(const HovercraftNode&) = delete;
 
-  /// Steps at the wanted pace until ROS is shut down.
+  /// Steps at the wanted pace until ROS is shut down, or the node is told to stop.
   void run();
+  /// From a signal handler: run() returns as soon as what it does is done, and stepPaused() breaks
+  /// off.
+  static void stop() { is_stopped = 1; }
 
   // Control, from callbacks of run()'s thread.
   /// Makes the steps that are due by now. The node sleeps through steps that nobody can see; a
@@ -69,11 +75,13 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   void apply(const hovercraft_sim::RunEvent& event);
 
  private:
+  static bool goesOn();
   void addVehicle(const ros::NodeHandle& handle, std::size_t vehicle);
   void addBody(const ros::NodeHandle& handle, std::size_t body);
   void addSensors(const ros::NodeHandle& handle);
   void addReports(ros::NodeHandle& own);
   void advertiseTransforms(ros::NodeHandle handle);
+  void advertiseStates(ros::NodeHandle& own);
   Claims claims() const;
   void publishConstants();
   void publishMap(ros::NodeHandle handle);
@@ -90,11 +98,13 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   void pushScheduled();
   void awaitCommands();
   void gatherTransforms();
+  void gatherStates();
   void publishState();
   void noticeSilence(std::int64_t now_ns);
   void report();
   void reportCommands(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t vehicle);
 
+  static volatile std::sig_atomic_t is_stopped;
   NodeConfig config_;
   LiveRun run_;
   Lockstep lockstep_;
@@ -106,12 +116,14 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   std::vector<BodyMessages> bodies_;                                       // loose ones
   std::vector<NewcomerPublisher<geometry_msgs::PoseStamped>> body_poses_;  // of each
   std::optional<SensorInterface> sensors_;
-  ros::Publisher contacts_;
+  TopicPublisher contacts_;
   ros::Publisher map_;
   ros::Publisher scenario_, events_, telemetry_;
   NewcomerPublisher<tf2_msgs::TFMessage> transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   tf2_msgs::TFMessage transforms_message_;
+  NewcomerPublisher<hovercraft_sim::States> states_;
+  hovercraft_sim::States states_message_;
   std::optional<GraphWatch> graph_watch_;
 
   PaceReport pace_;

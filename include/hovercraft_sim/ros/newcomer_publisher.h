@@ -9,9 +9,10 @@
 
 #include <ros/message_traits.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <ros/single_subscriber_publisher.h>
 #include <ros/time.h>
+
+#include "hovercraft_sim/ros/topic_publisher.h"
 
 namespace hovercraft_ros {
 
@@ -46,20 +47,41 @@ class NewcomerPublisher {
         ros::VoidConstPtr(), latched);
   }
 
+  /// Whether a message would go anywhere: what nobody hears need not be filled, see skip().
+  bool isHeard() const { return topic_->publisher.isHeard(); }
+
+  /// Publishes, whether anyone hears it or not.
   void publish(const Message& message) {
     // Counted before: who comes in between may get it twice, but does not wait in vain.
-    topic_->heard = topic_->publisher.getNumSubscribers();
+    topic_->heard = topic_->publisher.subscribers();
     topic_->stamp = stampOfMessage(message);
     ++topic_->published;
-    topic_->publisher.publish(message);
+    topic_->publisher.send(message);
+  }
+
+  /// In place of publish() where nobody heard it: it counts as published. Who has come since then
+  /// has nothing yet.
+  void skip() {
+    topic_->heard = 0;
+    ++topic_->published;
+    topic_->publisher.skip();
+  }
+
+  /// publish() or skip(). @param is_filled what isHeard() said before the message was filled.
+  void publishIf(bool is_filled, const Message& message) {
+    if (is_filled) {
+      publish(message);
+    } else {
+      skip();
+    }
   }
 
   /// The full name.
-  std::string topic() const { return topic_->publisher.getTopic(); }
+  std::string topic() const { return topic_->publisher.topic(); }
 
  private:
   struct Topic {
-    ros::Publisher publisher;
+    TopicPublisher publisher;
     Present present;
     ros::Time stamp;              // of the last message
     std::uint32_t heard = 0;      // subscribers who are here and have it
@@ -71,7 +93,7 @@ class NewcomerPublisher {
       if (stampOfMessage(*message) != stamp) heard = 0;
       stamp = stampOfMessage(*message);
       // He may have connected just before the message was published to all.
-      if (publisher.getNumSubscribers() <= heard) return;
+      if (publisher.subscribers() <= heard) return;
       ++heard;
       Message copy = *message;
       // The number of the last one, so that no reader of a bag misses any.

@@ -5,6 +5,7 @@
 #include <hovercraft_sim/AppliedCommand.h>
 #include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/State.h>
+#include <hovercraft_sim/States.h>
 #include <rosbag/message_instance.h>
 
 #include "hovercraft_sim/math/export.h"
@@ -33,6 +34,10 @@ HOVERCRAFT_PUBLIC boost::shared_ptr<const hovercraft_sim::RunEvent> readRunEvent
 
 /// Its tick fits hovercraft::Tick. Its numbers are what a replay compares: they may be any.
 HOVERCRAFT_PUBLIC boost::shared_ptr<const hovercraft_sim::State> readState(
+    const std::string& path, const rosbag::MessageInstance& instance);
+
+/// Likewise of each, and there is a name for each.
+HOVERCRAFT_PUBLIC boost::shared_ptr<const hovercraft_sim::States> readStates(
     const std::string& path, const rosbag::MessageInstance& instance);
 
 }  // namespace hovercraft_ros

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/sensor_messages.h"
+#include "hovercraft_sim/ros/topic_publisher.h"
 
 namespace hovercraft_ros {
 
@@ -32,14 +32,14 @@ class HOVERCRAFT_PUBLIC SensorInterface {
 
  private:
   struct Publishers {
-    ros::Publisher message;
-    ros::Publisher velocity;
+    TopicPublisher message;
+    TopicPublisher velocity;
   };
 
   const LiveRun& run_;
   std::vector<SensorMessages> messages_;             // of each craft
   std::vector<std::vector<Publishers>> publishers_;  // of each craft and sensor
-  ros::Publisher transforms_;
+  TopicPublisher transforms_;
 };
 
 }  // namespace hovercraft_ros

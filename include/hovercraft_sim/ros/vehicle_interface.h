@@ -9,12 +9,12 @@
 
 #include <hovercraft_sim/ThrustCommand.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
 #include <ros/subscriber.h>
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/ros/live_run.h"
 #include "hovercraft_sim/ros/newcomer_publisher.h"
+#include "hovercraft_sim/ros/topic_publisher.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/ros/warning_limiter.h"
 #include "hovercraft_sim/sim/simulation.h"
@@ -47,10 +47,13 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   VehicleInterface(const VehicleInterface&) = delete;
   VehicleInterface& operator=(const VehicleInterface&) = delete;
 
-  /// Fills the messages from the run as it stands.
-  void refresh() { messages_.fill(run_.simulation(), run_.place()); }
-  /// Publishes them, but for the transform, which the node sends for all craft at once.
-  void publish();
+  /// Fills messages from the run as it stands.
+  void refresh(const MessageParts& parts) {
+    messages_.fill(run_.simulation(), run_.place(), parts);
+  }
+  /// Fills and publishes those that someone hears. @param others that are filled all the same: what
+  /// the node sends for all craft at once.
+  void publish(MessageParts others);
   void publishApplied(const hovercraft::Command& command);
   /// Counts a command that was taken, and warns if it is beyond the engines' limits.
   /// @param source where it came from.
@@ -91,7 +94,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   NewcomerPublisher<hovercraft_sim::State> state_;
   NewcomerPublisher<hovercraft_sim::Wind> wind_;
   NewcomerPublisher<hovercraft_sim::Cushion> cushion_;  // of a craft that has one
-  ros::Publisher commands_;
+  TopicPublisher commands_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

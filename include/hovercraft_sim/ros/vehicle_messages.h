@@ -35,6 +35,8 @@ constexpr const char* kActuatorsTopic = "actuators";
 constexpr const char* kActuatorCommandTopic = "actuator_command";
 constexpr const char* kStateTopic = "state";
 constexpr const char* kCommandsTopic = "commands";
+/// Of the node: the states of all craft.
+constexpr const char* kStatesTopic = "states";
 
 /// Whether the true odometry may be on it: a topic below the craft's namespace, truth/odom, whose
 /// first and last parts are no topic of something else.
@@ -53,6 +55,18 @@ struct RunStamp {
   std::uint64_t events = 0;   // RunEvents of this episode so far
 };
 
+/// Which messages of a craft are wanted: what nobody hears is not filled.
+struct MessageParts {
+  bool frames = false;  // pose, twist, odom, transform
+  bool engines = false;
+  bool actuators = false;
+  bool state = false;  // with its hash
+  bool wind = false;
+  bool cushion = false;
+
+  static MessageParts all() { return {true, true, true, true, true, true}; }
+};
+
 /// Every message about one craft at one tick; the node publishes them, a bag writer writes them.
 /// The messages are kept and filled again, so that their strings are made once.
 class HOVERCRAFT_PUBLIC VehicleMessages {
@@ -66,7 +80,12 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   hovercraft::TfSource tf() const { return description_.tf; }
 
   /// Fills every message from the simulation as it stands.
-  void fill(const hovercraft::Simulation& simulation, const RunStamp& place);
+  void fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
+    fill(simulation, place, MessageParts::all());
+  }
+  /// Fills those that are wanted; the others stay as they are.
+  void fill(const hovercraft::Simulation& simulation, const RunStamp& place,
+            const MessageParts& parts);
 
   /// Numbers the command; states count it from then on. @param place at the command's tick.
   hovercraft_sim::AppliedCommand appliedCommand(const hovercraft::Command& command,
@@ -92,6 +111,10 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
 
  private:
   void enter(std::uint32_t episode);
+  void fillFrames(const HullMotion& hull, const ros::Time& stamp);
+  void fillEngines(const hovercraft::Simulation& simulation);
+  void fillState(const hovercraft::Simulation& simulation, const RunStamp& place,
+                 const hovercraft::Motion& motion);
   void fillCushion(const hovercraft::Simulation& simulation);
   void fillWind(const hovercraft::Simulation& simulation, const HullMotion& hull);
   void fillActuators(const hovercraft::Simulation& simulation);

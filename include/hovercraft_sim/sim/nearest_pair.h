@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ class HOVERCRAFT_PUBLIC NearestPairFinder {
   /// @param X_WH where base_link of each of moving() is; none: not known, it is left out. Finite,
   /// rotations orthonormal.
   [[nodiscard]] std::optional<NearestPair> find(const std::vector<std::optional<Pose>>& X_WH);
+  /// How far one of moving() is from the nearest of those that are named, m; negative: depth.
+  /// @param a its index. @param names of moving ones and obstacles; empty: all others.
+  /// @param X_WH as in find(). @returns none if there is no other, or a is not known.
+  [[nodiscard]] std::optional<double> clearance(std::size_t a, const std::set<std::string>& names,
+                                                const std::vector<std::optional<Pose>>& X_WH);
 
  private:
   struct Solid {
