@@ -24,8 +24,8 @@ inline void PrintTo(const BrokenRule& rule, std::ostream* stream) {  // NOLINT: 
 // ---- keys ---------------------------------------------------------------------------------------
 inline const std::vector<BrokenRule> kBrokenKeys = {
     {"UnknownKey", "seed: 7", "sede: 7",
-     "sede = 7: unknown key; known here: physics_version, step_size, integrator, orientation, "
-     "model, gravity, wind, gusts, seed, vehicles, world, ground"},
+     "sede = 7: unknown key; known here: physics_version, software, step_size, integrator, "
+     "orientation, model, gravity, wind, gusts, seed, vehicles, world, ground"},
     {"UnknownVehicleKey", "    mass: 5.5", "    weight: 5.5",
      "vehicles.alpha.weight = 5.5: unknown key; known here: mass, inertia, center_of_mass, parts, "
      "engines, actuators, drag, hull, material, visual, initial, cushion, sensors, tf"},
