@@ -9,8 +9,6 @@ import argparse
 import csv
 import sys
 
-from hovercraft_sim.version import answer_version
-
 COLUMNS = ('time', 'gap', 'pressure', 'fan_speed')
 
 
@@ -62,7 +60,9 @@ def main():
     parser.add_argument('-o', '--output', default='cushion.png')
     parser.add_argument('--vehicle')
     parser.add_argument('--version', action='store_true', help='of the package, and of the physics')
-    answer_version()
+    if '--version' in sys.argv[1:]:
+        from hovercraft_sim.version import answer_version
+        answer_version()
     arguments = parser.parse_args()
     try:
         draw(cells_of(rows_of(arguments.cells), arguments.vehicle), arguments.output)

@@ -16,10 +16,9 @@ import os
 import stat
 import sys
 
-from hovercraft_sim.version import answer_version
-
-if __name__ == '__main__':
-    answer_version()  # before what may not be installed
+if __name__ == '__main__' and '--version' in sys.argv[1:]:  # before what may not be installed
+    from hovercraft_sim.version import answer_version
+    answer_version()
 
 import matplotlib  # noqa: E402
 matplotlib.use('Agg')
