@@ -327,6 +327,8 @@ def main():
     arguments = parser.parse_args()
     build = arguments.build.resolve()
 
+    # What is started in the background ignores it, and so would rosbag and roslaunch.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     printed.check_reader()
     tools = [path.name for path in (build / 'devel/lib/hovercraft_sim').iterdir()] + list(printed_rules.READERS_PROGRAMS)
     items = [item for document in printed_rules.DOCUMENTS

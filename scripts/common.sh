@@ -7,6 +7,11 @@
 # Ubuntu 20.04, from the ROS archive (Noetic).
 
 set -euo pipefail
+# Begun by another script in the background, it ignores SIGINT, and bash lets nobody take that back: roslaunch would not end when a required
+# process has, nor rosbag record.
+if [[ ${BASH_SOURCE[1]:-} == "$0" ]] && ((0x$(sed -n 's/^SigIgn:[[:space:]]*//p' /proc/$$/status) & 2)); then
+  exec perl -e '$SIG{INT} = "DEFAULT"; exec @ARGV' "$BASH" "$0" "$@"
+fi
 readonly CALLED_FROM=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
