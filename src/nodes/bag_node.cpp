@@ -1,10 +1,12 @@
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -65,6 +67,9 @@ std::string requireBag(const std::string& verb) {
   throw std::runtime_error(program.string() + ": cannot be started: " + std::strerror(errno));
 }
 
+/// roslaunch may hang for ever when a required process ends while it starts the others.
+constexpr std::chrono::seconds kPatience(3);
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -81,6 +86,7 @@ int main(int argc, char** argv) {
     become(std::move(arguments));
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
+    std::this_thread::sleep_for(kPatience);
     return 1;
   }
 }
