@@ -35,7 +35,11 @@ class Waypoints:
         command = Twist()
         command.angular.z = max(-TURN_RATE, min(TURN_RATE, TURN_GAIN * error))
         command.linear.x = SPEED * max(0.0, math.cos(error)) ** 2  # turns first
-        self.publisher.publish(command)
+        try:
+            self.publisher.publish(command)
+        except rospy.ROSException:
+            if not rospy.is_shutdown():  # it closes the topic before the callbacks end
+                raise
 
 
 if __name__ == '__main__':
