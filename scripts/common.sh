@@ -91,8 +91,6 @@ packages_of_debian() {
       python3-rostopic rosbash rosout ;;
     # The runtime of clang's sanitizers; before, it was part of what clang depends on.
     clang) case "$(system_name)" in 'debian 12' | 'debian 13' | 'ubuntu 24.04') echo libclang-rt-dev ;; esac ;;
-    # Without what it recommends 3 MB: a study on a cluster is tested.
-    python) echo python3-distributed ;;
     demo) echo python3-rostest ;;
     test) echo librostest-dev python3-rosnode python3-rosmsg python3-tf2-ros ;;
     rviz) echo rviz ;;
