@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """A fleet: one topic of all craft, and messages that are made for those who hear them alone."""
 
-import contextlib
 import signal
 import subprocess
 import unittest
@@ -14,24 +13,11 @@ from hovercraft_sim.msg import State, States, Telemetry
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from ros_waiting import DEADLINE, service, wait_for_connections, wait_until
+from ros_waiting import DEADLINE, listening, service, wait_until
 
 NAMES = [f'fleet_{i}' for i in range(1, 6)]
 STATES = '/hovercraft_sim/states'
 PUBLISHED = 20  # ticks that are waited for
-
-
-@contextlib.contextmanager
-def listening(**kinds):
-    """What newcomers hear, by a short name each: {name: (topic, type)}."""
-    heard = {name: [] for name in kinds}
-    subscribers = [rospy.Subscriber(topic, kind, heard[name].append) for name, (topic, kind) in kinds.items()]
-    try:
-        wait_for_connections(*subscribers)
-        yield heard
-    finally:
-        for subscriber in subscribers:
-            subscriber.unregister()
 
 
 def by_stamp(messages):
@@ -49,9 +35,9 @@ class FleetTest(unittest.TestCase):
 
     def test_a_newcomer_to_a_run_that_stands_gets_the_states_of_all(self):
         service('pause', Trigger)()
-        with listening(all=(STATES, States)) as heard:
+        with listening({'all': (STATES, States)}) as heard:
             wait_until(lambda: heard['all'], 'the states of all')
-            with listening(one=('/fleet_4/state', State), tf=('/tf', TFMessage)) as others:
+            with listening({'one': ('/fleet_4/state', State), 'tf': ('/tf', TFMessage)}) as others:
                 wait_until(lambda: others['one'] and others['tf'], 'a state and tf')
                 states = heard['all'][0]
                 self.assertEqual(list(states.names), NAMES)
@@ -64,7 +50,7 @@ class FleetTest(unittest.TestCase):
 
     def test_the_states_of_all_are_those_of_each(self):
         topics = {name: (f'/{name}/state', State) for name in NAMES}
-        with listening(all=(STATES, States), **topics) as heard:
+        with listening({'all': (STATES, States), **topics}) as heard:
             service('resume', Trigger)()
             wait_until(lambda: all(len(messages) > PUBLISHED for messages in heard.values()), 'states')
             service('pause', Trigger)()
@@ -80,10 +66,10 @@ class FleetTest(unittest.TestCase):
 
     def test_who_comes_late_gets_fresh_messages_with_the_numbers_of_those_before(self):
         """What nobody heard was not made, but it counts; so no reader of a bag takes a late start for a loss, or the other way round."""
-        with listening(state=('/fleet_1/state', State)) as heard:
+        with listening({'state': ('/fleet_1/state', State)}) as heard:
             service('resume', Trigger)()
             wait_until(lambda: len(heard['state']) > PUBLISHED, 'states that one alone hears')
-            with listening(pose=('/fleet_1/pose', PoseStamped), other=('/fleet_2/state', State)) as late:
+            with listening({'pose': ('/fleet_1/pose', PoseStamped), 'other': ('/fleet_2/state', State)}) as late:
                 wait_until(lambda: len(late['pose']) > PUBLISHED and len(late['other']) > PUBLISHED, 'late messages')
                 service('pause', Trigger)()
                 wait_until(lambda: heard['state'][-1].header.stamp >= late['other'][-1].header.stamp, 'the same of both')

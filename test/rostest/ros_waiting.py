@@ -1,5 +1,6 @@
 """What the Python rostests share: services of the node, tools, and waiting on a condition with a deadline."""
 
+import contextlib
 import os
 import subprocess
 import tempfile
@@ -45,6 +46,19 @@ def is_connected(wire):
         return wire.get_num_connections() > 0
     calls = list(wire.impl.connections)
     return bool(calls) and all(call.type is not None for call in calls)
+
+
+@contextlib.contextmanager
+def listening(topics):
+    """What newcomers to some topics hear: of {name: (topic, type)} the messages by name."""
+    heard = {name: [] for name in topics}
+    subscribers = [rospy.Subscriber(topic, kind, heard[name].append) for name, (topic, kind) in topics.items()]
+    try:
+        wait_for_connections(*subscribers)
+        yield heard
+    finally:
+        for subscriber in subscribers:
+            subscriber.unregister()
 
 
 def snapshot_now():

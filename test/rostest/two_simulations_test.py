@@ -18,7 +18,7 @@ from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
-from ros_waiting import DEADLINE, wait_for_connections, wait_until
+from ros_waiting import DEADLINE, listening, wait_until
 
 STEP_NS = 1000000
 CRAFT = {'pose': PoseStamped, 'twist': TwistStamped, 'odom': Odometry, 'engines': EngineStatus, 'state': State}
@@ -33,19 +33,6 @@ def blue(name, kind):
 def number(level):
     """Of a diagnostic status: genpy has one byte of it, or a number."""
     return level if isinstance(level, int) else level[0]
-
-
-@contextlib.contextmanager
-def listening(kinds):
-    """What newcomers hear, by topic."""
-    heard = {topic: [] for topic in kinds}
-    subscribers = [rospy.Subscriber(topic, kind, heard[topic].append) for topic, kind in kinds.items()]
-    try:
-        wait_for_connections(*subscribers)
-        yield heard
-    finally:
-        for subscriber in subscribers:
-            subscriber.unregister()
 
 
 def of_blue(transforms):
@@ -95,14 +82,14 @@ class TwoSimulationsTest(unittest.TestCase):
         kinds.update({f'/blue/{body}/pose': PoseStamped for body in BODIES})
         kinds.update({'/clock': Clock, '/tf': TFMessage})
         state = '/blue/hovercraft/state'
-        with listening(kinds) as early:
+        with listening({topic: (topic, kind) for topic, kind in kinds.items()}) as early:
             wait_until(lambda: all(early.values()) and of_blue(early['/tf']), 'a message of every topic')
         self.assertEqual([(message.episode, message.tick) for message in early[state]], [(episode, 0)])
         frames = {transform.child_frame_id for transform in of_blue(early['/tf'])[0].transforms}
         self.assertEqual(frames, {'hovercraft/base_link', *(body + '/base_link' for body in BODIES)})
         # It stands between two states that are published: a newcomer is given what is now.
         self.assertTrue(blue('step', Step)(5).success)
-        with listening(kinds) as late:
+        with listening({topic: (topic, kind) for topic, kind in kinds.items()}) as late:
             wait_until(lambda: all(late.values()) and of_blue(late['/tf']), 'a message of every topic')
             self.assertTrue(blue('step', Step)(15).success)
             wait_until(lambda: late[state][-1].tick == 20 and len(of_blue(late['/tf'])) == 3, 'the state of tick 20')
@@ -126,7 +113,7 @@ class TwoSimulationsTest(unittest.TestCase):
             self.assertGreater(min(stamps), rospy.Time(0), topic)
 
     def test_two_craft_of_one_name_have_frames_of_their_own(self):
-        with listening({f'/red/hovercraft/{topic}': kind for topic, kind in CRAFT.items()}) as heard:
+        with listening({f'/red/hovercraft/{topic}': (f'/red/hovercraft/{topic}', kind) for topic, kind in CRAFT.items()}) as heard:
             wait_until(lambda: all(heard.values()), 'a message of every topic')
         frame = 'red/hovercraft/base_link'
         self.assertEqual(heard['/red/hovercraft/twist'][0].header.frame_id, frame)
