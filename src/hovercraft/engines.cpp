@@ -34,7 +34,7 @@ EngineDynamics::EngineDynamics(const ActuatorArray<EngineParameters>& parameters
   }
 }
 
-void EngineDynamics::course(const EngineStates& states, Tick tick, ThrustCourse& course) const {
+Tick EngineDynamics::course(const EngineStates& states, Tick tick, ThrustCourse& course) const {
   const std::size_t count = rules_.size();
   if (course.start.size() != count) {
     for (auto* values : {&course.start, &course.middle, &course.end}) values->resize(count);
@@ -43,6 +43,7 @@ void EngineDynamics::course(const EngineStates& states, Tick tick, ThrustCourse&
   double* start = course.start.begin();
   double* middle = course.middle.begin();
   double* end = course.end.begin();
+  bool is_steady = true;
   for (const Rule& rule : rules_) {
     const double demanded = demandOf(rule, *state, tick);
     double lead = rule.lags ? state->thrust - demanded : 0.0;
@@ -50,13 +51,29 @@ void EngineDynamics::course(const EngineStates& states, Tick tick, ThrustCourse&
     *start = demanded + lead;
     *middle = demanded + lead * rule.half_decay;
     *end = demanded + lead * rule.full_decay;
+    // A lag ends some units in the last place before what it strives for.
+    is_steady = is_steady && *start == *middle && *middle == *end;
     ++state, ++start, ++middle, ++end;
   }
+  return is_steady ? nextTimeout(states, tick) : tick;
+}
+
+/// The first tick after `tick` at which an engine times out; if none does, the last there is.
+Tick EngineDynamics::nextTimeout(const EngineStates& states, Tick tick) const {
+  Tick next = std::numeric_limits<Tick>::max();
+  const EngineState* state = states.begin();
+  for (const Rule& rule : rules_) {
+    const bool may = state->command_tick != EngineState::kNever && rule.timeout_ticks < next;
+    const Tick timeout = may ? state->command_tick + rule.timeout_ticks : next;
+    if (timeout > tick) next = std::min(next, timeout);
+    ++state;
+  }
+  return next;
 }
 
 ThrustCourse EngineDynamics::course(const EngineStates& states, Tick tick) const {
   ThrustCourse result;
-  course(states, tick, result);
+  static_cast<void>(course(states, tick, result));
   return result;
 }
 

@@ -38,15 +38,19 @@ double fanSpeedAt(double level) {
   return std::max(0.0, level);
 }
 
+/// Chosen without a branch: in a planar craft half of the components are always 0.
+inline void settle(Vector3& momentum) {
+  for (int i = 0; i < 3; ++i) {
+    momentum(i) = std::abs(momentum(i)) < kSettledMomentum ? 0.0 : momentum(i);
+  }
+}
+
 /// Ends what drag left of the momenta before it becomes denormal numbers.
 /// @returns false if the state is not finite.
 template <class Orientation>
 bool settle(RigidBodyState<Orientation>& body) {
-  for (Vector3* momentum : {&body.momentum_W, &body.angular_momentum_W}) {
-    for (int i = 0; i < 3; ++i) {
-      if (std::abs((*momentum)(i)) < kSettledMomentum) (*momentum)(i) = 0.0;
-    }
-  }
+  settle(body.momentum_W);
+  settle(body.angular_momentum_W);
   return isSound(body);
 }
 
@@ -75,6 +79,7 @@ Simulation::Simulation(Scenario scenario)
 void Simulation::reset(std::int64_t seed) {
   const FloatingPointEnvironment environment;
   state_ = SimulationState();
+  steady_until_.assign(engine_dynamics_.size(), 0);
   state_.seed = seed;
   for (const VehicleScenario& vehicle : scenario_.vehicles) {
     state_.engines.push_back(initialActuators(vehicle));
@@ -104,6 +109,7 @@ void Simulation::restore(const SimulationState& state) {
   demand(!sensors_ || sensors_->fits(state.sensors, state.tick),
          "what sensors remember must come from the same scenario");
   state_ = state;
+  steady_until_.assign(engine_dynamics_.size(), 0);
   refreshWind();
 }
 
@@ -157,6 +163,7 @@ void Simulation::applyWrench(const ExternalWrench& wrench) {
 
 void Simulation::endWrenches() {
   auto& wrenches = state_.wrenches;
+  if (wrenches.empty()) return;
   wrenches.erase(std::remove_if(wrenches.begin(), wrenches.end(),
                                 [this](const ExternalWrench& wrench) {
                                   return wrench.end_tick <= state_.tick;
@@ -176,6 +183,7 @@ void Simulation::push(const Command& command) {
 void Simulation::applyDueCommands() {
   while (const Command* command = state_.commands.takeDue(state_.tick)) {
     EngineStates& engines = state_.engines[command->vehicle];
+    steady_until_[command->vehicle] = 0;
     for (std::size_t i = 0; i < engines.size(); ++i) {
       if ((command->engines & maskOf(i)) == 0) continue;
       EngineState& engine = engines[i];
@@ -186,12 +194,12 @@ void Simulation::applyDueCommands() {
   }
 }
 
-/// The speeds of the fans of a craft's cushion over the step, at its stages: as they are described,
-/// and of those that actuators turn the actuators' levels.
+/// The speeds of the fans of the cushion of a craft with ground forces over the step, at its
+/// stages: as they are described, and of those that actuators turn the actuators' levels.
 void Simulation::turnFans(std::size_t vehicle) {
-  const auto& forces = modelOf(vehicle).ground_forces;
-  if (forces == nullptr || !forces->cushion()) return;
-  const Cushion& cushion = *forces->cushion();
+  const GroundForces& forces = *modelOf(vehicle).ground_forces;
+  if (!forces.cushion()) return;
+  const Cushion& cushion = *forces.cushion();
   StepInputs& inputs = inputs_[vehicle];
   FanSpeedCourse& course = inputs.fan_speeds;
   const double start = toSeconds(timeNs());
@@ -211,9 +219,13 @@ void Simulation::prepareInputs() {
   std::size_t vehicle = 0;
   for (const EngineStates& engines : state_.engines) {
     StepInputs& inputs = inputs_[vehicle];
-    engine_dynamics_[vehicle].course(engines, state_.tick, inputs.thrusts);
+    if (state_.tick >= steady_until_[vehicle]) {
+      steady_until_[vehicle] =
+          engine_dynamics_[vehicle].course(engines, state_.tick, inputs.thrusts);
+      inputs.is_steady = steady_until_[vehicle] > state_.tick;
+    }
     inputs.is_loaded = false;
-    turnFans(vehicle);
+    if (modelOf(vehicle).ground_forces != nullptr) turnFans(vehicle);
     ++vehicle;
   }
   for (const ExternalWrench& external : state_.wrenches) {

@@ -10,6 +10,7 @@ void Simulation::setActuator(std::size_t vehicle, std::size_t id, double efficie
   demand(vehicle < vehicleCount() && id < state_.engines[vehicle].size(),
          "a fault must name an actuator of the scenario");
   demand(efficiency >= 0.0 && efficiency <= 1.0, "an efficiency must be checked before");
+  steady_until_[vehicle] = 0;
   EngineState& actuator = state_.engines[vehicle][id];
   actuator.efficiency = efficiency;
   actuator.stuck = stuck;

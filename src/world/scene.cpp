@@ -61,6 +61,7 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
   demand(rules_.step > 0.0 && rules_.tolerance > 0.0, "a world needs a step and a tolerance");
   demand(rules_.pairs.size() == rules_.material_count * rules_.material_count,
          "a world needs a law for each pair of materials");
+  for (const WorldBody& body : bodies_) planar_.push_back(PlanarCraft::of(body.model));
   if (!rules_.bodies_meet) return;
   for (const WorldBody& body : bodies_) {
     demand(body.hull.has_value(), "a body that meets others needs a hull");
@@ -106,18 +107,24 @@ void Scene::moveAll(const std::vector<BodyState>& states, const std::vector<Step
   auto end = ends.begin();
   auto input = inputs.begin();
   auto state = states.begin();
+  auto planar = planar_.begin();
   for (const WorldBody& body : bodies_) {
-    const DrivenBody system = {body.model, input->thrusts, input->environment,
-                               input->is_loaded ? &input->load : nullptr, &input->fan_speeds};
+    const DrivenBody system = {body.model,         input->thrusts,
+                               input->environment, input->is_loaded ? &input->load : nullptr,
+                               &input->fan_speeds, input->is_steady};
     if (end->index() != state->index()) *end = *state;
     if (const auto* start = std::get_if<RigidBodyState<Quaternion>>(&*state)) {
-      *std::get_if<RigidBodyState<Quaternion>>(&*end) =
-          bodyStep<Quaternion>(rules_.integrator, *start, system, rules_.step);
+      auto& moved = *std::get_if<RigidBodyState<Quaternion>>(&*end);
+      if (*planar && (*planar)->takes(*start, system)) {
+        (*planar)->step(rules_.integrator, *start, system, rules_.step, moved);
+      } else {
+        moved = bodyStep<Quaternion>(rules_.integrator, *start, system, rules_.step);
+      }
     } else {
       *std::get_if<RigidBodyState<Matrix3>>(&*end) = bodyStep<Matrix3>(
           rules_.integrator, *std::get_if<RigidBodyState<Matrix3>>(&*state), system, rules_.step);
     }
-    ++state, ++input, ++end;
+    ++state, ++input, ++end, ++planar;
   }
 }
 

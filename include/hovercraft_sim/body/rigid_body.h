@@ -73,9 +73,8 @@ inline Matrix3 orientationRate(const Vector3& w_WB, const Matrix3& R_WB) {
   return rotationRate(w_WB, R_WB);
 }
 
-/// Back onto the unit sphere. A projection along the shortest way moves the result by no more than
-/// its distance from the sphere, which a stepper of order p leaves at O(h^(p+1)): the order
-/// survives.
+/// Back onto the unit sphere, the shortest way: that is no farther than the result is off it, which
+/// is O(h^(p+1)) after a stepper of order p. So the order survives.
 inline Quaternion renormalized(const Quaternion& q) {
   return normalized(q);
 }
@@ -92,8 +91,7 @@ inline Quaternion toQuaternion(const Matrix3& R_WB) {
   return quaternionFromMatrix(R_WB);
 }
 
-/// How a body answers forces: m⁻¹ and Î⁻¹ in B, both already restricted to the motions that its
-/// model allows.
+/// How a body answers forces: m⁻¹ and Î⁻¹ in B, both restricted to the motions of its model.
 class HOVERCRAFT_PUBLIC Mobility {
  public:
   /// All six degrees of freedom. @param mass kg, > 0. @param I_BBo_B kg m², positive definite,
@@ -104,6 +102,8 @@ class HOVERCRAFT_PUBLIC Mobility {
   /// velocity keep z. The bearing that holds roll and pitch takes what products of inertia would
   /// turn, hence w_z = L_z / I_zz.
   static Mobility planar(double mass, const Matrix3& I_BBo_B);
+
+  bool isPlanar() const { return free_translation_.z() == 0.0; }  // held to (x, y, yaw)
 
   /// The part of a wrench (in W) that moves the body.
   Wrench project(const Wrench& wrench) const {

@@ -128,7 +128,9 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
   /// stage.
   ThrustCourse course(const EngineStates& states, Tick tick) const;
   /// The same, written into what the last step left there.
-  void course(const EngineStates& states, Tick tick, ThrustCourse& course) const;
+  /// @returns the tick of the first step that has other thrusts if neither command nor fault comes:
+  /// `tick` itself where a thrust changes within the step.
+  [[nodiscard]] Tick course(const EngineStates& states, Tick tick, ThrustCourse& course) const;
 
  private:
   /// What a step needs of an engine.
@@ -160,6 +162,8 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     return state.efficiency * std::clamp(level, rule.min_thrust, rule.max_thrust);
   }
 
+  Tick nextTimeout(const EngineStates& states, Tick tick) const;
+
   std::int64_t step_ns_;
   ActuatorArray<Rule> rules_;
 };
@@ -174,6 +178,9 @@ class HOVERCRAFT_PUBLIC EngineGeometry {
   Wrench wrenchInBody(const Vector3& thrusts) const {
     return {times(force_map_, thrusts), times(torque_map_, thrusts)};
   }
+  /// The two matrices.
+  const Matrix3& forceMap() const { return force_map_; }
+  const Matrix3& torqueMap() const { return torque_map_; }
 
  private:
   Matrix3 force_map_;   // column i: direction of engine i

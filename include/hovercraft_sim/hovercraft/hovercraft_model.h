@@ -63,34 +63,39 @@ struct HovercraftModel {
                                           const ActuatorArray<double>& thrusts,
                                           const Environment& environment,
                                           const FanSpeeds* fan_speeds = nullptr) const {
-    return derivativeWith<true>(state, thrusts, environment, fan_speeds);
-  }
-
-  /// The same. @param kHasMore false: of a body without hasMoreForces(), for less.
-  template <bool kHasMore, class Orientation>
-  StateDerivative<Orientation> derivativeWith(const RigidBodyState<Orientation>& state,
-                                              const ActuatorArray<double>& thrusts,
-                                              const Environment& environment,
-                                              const FanSpeeds* fan_speeds) const {
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     const Vector3 v_WB = mobility.velocity(state.momentum_W);
-    const Vector3 w_WB_B = kHasMore
-                               ? angularVelocityInBody(state.angular_momentum_W, R_WB, thrusts)
-                               : mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
+    const Vector3 w_WB_B = angularVelocityInBody(state.angular_momentum_W, R_WB, thrusts);
     const Vector3 u_B = transposeTimes(R_WB, v_WB - environment.wind_W);
-    Wrench wrench_B =
-        engines.wrenchInBody({thrusts[0], thrusts[1], thrusts[2]}) + drag.wrenchInBody(u_B, w_WB_B);
-    if constexpr (kHasMore) {
-      if (!forces.empty()) wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
-      if (ground_forces != nullptr && fan_speeds != nullptr) {
-        const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
-        wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment, *fan_speeds);
-      }
+    Wrench wrench_B = wrenchOfEngines(thrusts) + drag.wrenchInBody(u_B, w_WB_B);
+    if (!forces.empty()) wrench_B = wrench_B + wrenchInBody(forces, {thrusts, u_B, w_WB_B});
+    if (ground_forces != nullptr && fan_speeds != nullptr) {
+      const BodyMotion motion = {R_WB, state.p_WB, transposeTimes(R_WB, v_WB), w_WB_B, u_B};
+      wrench_B = wrench_B + ground_forces->wrenchInBody(motion, environment, *fan_speeds);
     }
     const Wrench wrench_W =
         mobility.project({times(R_WB, wrench_B.force) + weight_W, times(R_WB, wrench_B.torque)});
     return {v_WB, orientationRate(times(R_WB, w_WB_B), state.orientation), wrench_W.force,
             wrench_W.torque};
+  }
+
+  /// In B. @param thrusts of all actuators, of which the engines come first.
+  [[gnu::flatten]] Wrench wrenchOfEngines(const ActuatorArray<double>& thrusts) const {
+    return engines.wrenchInBody({thrusts[0], thrusts[1], thrusts[2]});
+  }
+
+  /// The same bits for a spatial body without hasMoreForces(), for less.
+  template <class Orientation>
+  StateDerivative<Orientation> derivativeOfEngines(const RigidBodyState<Orientation>& state,
+                                                   const Wrench& engines_B,
+                                                   const Environment& environment) const {
+    const Matrix3 R_WB = rotationMatrix(state.orientation);
+    const Vector3 v_WB = mobility.velocity(state.momentum_W);
+    const Vector3 w_WB_B = mobility.angularVelocityInBody(state.angular_momentum_W, R_WB);
+    const Vector3 u_B = transposeTimes(R_WB, v_WB - environment.wind_W);
+    const Wrench wrench_B = engines_B + drag.wrenchInBody(u_B, w_WB_B);
+    return {v_WB, orientationRate(times(R_WB, w_WB_B), state.orientation),
+            times(R_WB, wrench_B.force) + weight_W, times(R_WB, wrench_B.torque)};
   }
 };
 

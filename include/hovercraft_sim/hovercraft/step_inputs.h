@@ -19,7 +19,8 @@ struct ExternalLoad {
 /// All that determines the motion of one body in a step besides its state and contact: the same for
 /// a craft and for a loose body, whose engines have no thrust.
 struct StepInputs {
-  ThrustCourse thrusts;  // of the whole step
+  ThrustCourse thrusts;    // of the whole step
+  bool is_steady = false;  // they are the same at all stages
   ExternalLoad load;
   bool is_loaded = false;  // else `load` counts for nothing
   Environment environment;
@@ -39,27 +40,27 @@ struct DrivenBody {
   const Environment& environment;
   const ExternalLoad* load = nullptr;          // none
   const FanSpeedCourse* fan_speeds = nullptr;  // over the piece; of a craft with ground forces
+  bool is_steady = false;                      // the thrusts are the same at all stages
 
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
-    return derivativeWith<true>(state, stage);
-  }
-  template <bool kHasMore, class Orientation>
-  StateDerivative<Orientation> derivativeWith(const RigidBodyState<Orientation>& state,
-                                              Stage stage) const {
-    StateDerivative<Orientation> rate = model.derivativeWith<kHasMore>(
-        state, thrusts.at(stage), environment,
-        kHasMore && fan_speeds != nullptr ? &fan_speeds->at(stage) : nullptr);
-    if (load != nullptr) {
-      const Matrix3 R_WB = rotationMatrix(state.orientation);
-      const Wrench pushed =
-          model.mobility.project({load->in_world.force + times(R_WB, load->in_body.force),
-                                  load->in_world.torque + times(R_WB, load->in_body.torque)});
-      rate.force_W += pushed.force;
-      rate.torque_W += pushed.torque;
-    }
+    StateDerivative<Orientation> rate =
+        model.derivative(state, thrusts.at(stage), environment,
+                         fan_speeds != nullptr ? &fan_speeds->at(stage) : nullptr);
+    addLoad(state, rate);
     return rate;
+  }
+  /// Adds what pushes the body from outside.
+  template <class Orientation>
+  void addLoad(const RigidBodyState<Orientation>& state, StateDerivative<Orientation>& rate) const {
+    if (load == nullptr) return;
+    const Matrix3 R_WB = rotationMatrix(state.orientation);
+    const Wrench pushed =
+        model.mobility.project({load->in_world.force + times(R_WB, load->in_body.force),
+                                load->in_world.torque + times(R_WB, load->in_body.torque)});
+    rate.force_W += pushed.force;
+    rate.torque_W += pushed.torque;
   }
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
@@ -67,14 +68,25 @@ struct DrivenBody {
   }
 };
 
-/// A body on which nothing but engines, drag and weight acts: the same system, for less.
+/// A spatial body on which nothing but engines, drag and weight acts, by the wrenches of its
+/// engines at the stages: the same system, for less.
 struct DrivenBodyOfEngines {
   const DrivenBody& body;
+  const Wrench* start;  // in B
+  const Wrench* middle;
+  const Wrench* end;
 
+  const Wrench& at(Stage stage) const {
+    if (stage == Stage::kStart) return *start;
+    return stage == Stage::kMiddle ? *middle : *end;
+  }
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
-    return body.derivativeWith<false>(state, stage);
+    StateDerivative<Orientation> rate =
+        body.model.derivativeOfEngines(state, at(stage), body.environment);
+    body.addLoad(state, rate);
+    return rate;
   }
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
@@ -86,9 +98,25 @@ struct DrivenBodyOfEngines {
 template <class Orientation>
 RigidBodyState<Orientation> bodyStep(Integrator integrator, const RigidBodyState<Orientation>& y,
                                      const DrivenBody& f, double h) {
-  if (f.model.hasMoreForces()) return integrationStep<Orientation, DrivenBody>(integrator, y, f, h);
-  return integrationStep<Orientation, DrivenBodyOfEngines>(integrator, y, DrivenBodyOfEngines{f},
-                                                           h);
+  const HovercraftModel& model = f.model;
+  if (model.hasMoreForces() || model.mobility.isPlanar()) {
+    return integrationStep<Orientation, DrivenBody>(integrator, y, f, h);
+  }
+  const Wrench start = model.wrenchOfEngines(f.thrusts.start);
+  Wrench middle;
+  Wrench end;
+  DrivenBodyOfEngines system = {f, &start, &start, &start};
+  const bool is_of_two_stages =
+      integrator == Integrator::kHeun || integrator == Integrator::kRungeKutta4;
+  if (!f.is_steady && is_of_two_stages) {
+    end = model.wrenchOfEngines(f.thrusts.end);
+    system.end = &end;
+  }
+  if (!f.is_steady && integrator == Integrator::kRungeKutta4) {
+    middle = model.wrenchOfEngines(f.thrusts.middle);
+    system.middle = &middle;
+  }
+  return integrationStep<Orientation, DrivenBodyOfEngines>(integrator, y, system, h);
 }
 
 /// integrationStep() of a body, which Simulation makes: a function of the library, so that a

@@ -147,6 +147,7 @@ class HOVERCRAFT_PUBLIC Simulation {
   std::vector<std::vector<FanDrive>> fan_drives_;  // likewise
   SimulationState state_;
   std::vector<StepInputs> inputs_;  // of each body, in the step that is made
+  std::vector<Tick> steady_until_;  // until which the thrusts of a craft stay as they are there
   std::optional<SensorSuite> sensors_;
   std::vector<Vector3> rotors_B_;  // for them: of the rotors of each craft, if one has some
   StepResult result_;              // of it, until all of it is known to be sound

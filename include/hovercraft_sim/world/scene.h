@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hovercraft_sim/collision/motion.h"
+#include "hovercraft_sim/hovercraft/planar_step.h"
 #include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/world/world_types.h"
@@ -113,7 +114,8 @@ class Scene {
   WorldRules rules_;
   std::vector<WorldBody> bodies_;
   std::vector<WorldObstacle> obstacles_;
-  std::vector<Extent> extents_;  // of each body, where bodies meet
+  std::vector<std::optional<PlanarCraft>> planar_;  // of each body
+  std::vector<Extent> extents_;                     // of each body, where bodies meet
   std::vector<AxisAlignedBox> obstacle_boxes_;
   std::vector<std::vector<Side>> obstacle_sides_;  // none of those of many faces
 };
