@@ -11,14 +11,14 @@
 #include "hovercraft_sim/report/recorded_topics.h"
 #include "hovercraft_sim/report/run_figures.h"
 #include "hovercraft_sim/report/run_reader.h"
-#include "hovercraft_sim/ros/progress_bar.h"
 #include "hovercraft_sim/sim/output_file.h"
+#include "hovercraft_sim/sim/progress_bar.h"
 
 namespace hovercraft_ros {
 namespace {
 
 RunData readRun(const std::string& path, bool shows_progress, std::ostream& terminal) {
-  std::optional<ProgressBar> bar;
+  std::optional<hovercraft::ProgressBar> bar;
   const auto progress = [&](std::int64_t done, std::int64_t whole) {
     if (!bar) bar.emplace(terminal, whole);
     bar->show(done);

@@ -10,15 +10,6 @@
 
 namespace hovercraft_ros {
 
-bool isBag(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return false;
-  const std::string magic = "#ROSBAG ";
-  std::string begin(magic.size(), '\0');
-  std::ifstream(path, std::ios::binary).read(&begin[0], static_cast<std::streamsize>(begin.size()));
-  return begin == magic;
-}
-
 void openForReading(rosbag::Bag& bag, const std::string& path) {
   {
     const hovercraft::InputFile regular(path, hovercraft::InputKind::kFile);

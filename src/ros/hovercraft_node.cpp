@@ -8,7 +8,7 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
-#include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 #include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_ros {
@@ -56,7 +56,7 @@ double HovercraftNode::changeRealTimeFactor(double wanted) {
 }
 
 void HovercraftNode::restartPace() {
-  if (pacer_) pacer_->restart(run_.simulation().tick(), steadyNow());
+  if (pacer_) pacer_->restart(run_.simulation().tick(), hovercraft::steadyNow());
 }
 
 void HovercraftNode::resume() {
@@ -66,10 +66,10 @@ void HovercraftNode::resume() {
 
 void HovercraftNode::run() {
   restartPace();
-  pace_.restart(steadyNow());
+  pace_.restart(hovercraft::steadyNow());
   while (goesOn()) {
     ros::WallDuration timeout;
-    timeout.fromNSec(waitNs(steadyNow()));
+    timeout.fromNSec(waitNs(hovercraft::steadyNow()));
     ros::getGlobalCallbackQueue()->callAvailable(timeout);
     advance();
   }
@@ -84,7 +84,7 @@ const char* HovercraftNode::take(hovercraft::Command command,
   run_.simulation().push(command);
   if (config_.lockstep && !lockstep_.awaited()) {
     // The time that the controllers took is not the node's lateness.
-    answered_ns_ = steadyNow();
+    answered_ns_ = hovercraft::steadyNow();
     if (pacer_) pacer_->forgiveWait(command.tick, answered_ns_);
   }
   return nullptr;
@@ -123,7 +123,7 @@ bool HovercraftNode::isStepDue(std::int64_t now_ns) const {
 
 void HovercraftNode::catchUp() {
   if (!pacer_) return;
-  const std::int64_t now = steadyNow();
+  const std::int64_t now = hovercraft::steadyNow();
   // More than it may have slept through is a backlog: callbacks are handled between its slices.
   const bool is_behind = isStepDue(now - kLongestSleepNs);
   do {
@@ -132,7 +132,7 @@ void HovercraftNode::catchUp() {
 }
 
 void HovercraftNode::advance() {
-  std::int64_t now = steadyNow();
+  std::int64_t now = hovercraft::steadyNow();
   if (isIdle()) {
     noticeSilence(now);
   } else if (pacer_) {
@@ -153,7 +153,7 @@ void HovercraftNode::advance() {
                         config_.scenario.step_ns);
     }
     stepOnce();
-    const std::int64_t after = steadyNow();
+    const std::int64_t after = hovercraft::steadyNow();
     pace_.addStep(after - now);
     now = after;
   }
@@ -179,7 +179,7 @@ void HovercraftNode::stepOnce() {
 
 void HovercraftNode::awaitCommands() {
   lockstep_.await(run_.stamp());
-  waiting_since_ns_ = steadyNow();
+  waiting_since_ns_ = hovercraft::steadyNow();
 }
 
 void HovercraftNode::stepPaused(std::uint32_t steps) {
@@ -235,7 +235,7 @@ void HovercraftNode::publishState() {
   if (!is_empty) transforms_.publishIf(of_all.frames, transforms_message_);
   if (of_all.state) gatherStates();
   states_.publishIf(of_all.state, states_message_);
-  if (clock_) clock_->publishIfDue(run_.headerStamp(), steadyNow(), false);
+  if (clock_) clock_->publishIfDue(run_.headerStamp(), hovercraft::steadyNow(), false);
 }
 
 void HovercraftNode::apply(const hovercraft_sim::RunEvent& event) {
@@ -271,7 +271,7 @@ void HovercraftNode::noticeSilence(std::int64_t now_ns) {
 
 void HovercraftNode::report() {
   catchUp();
-  const std::int64_t now = steadyNow();
+  const std::int64_t now = hovercraft::steadyNow();
   pace_.fill(telemetry_message_, now, config_.scenario.step_ns);
   telemetry_message_.header.stamp = run_.headerStamp();
   telemetry_message_.tick = static_cast<std::uint64_t>(run_.simulation().tick());

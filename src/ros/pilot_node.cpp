@@ -8,8 +8,8 @@
 
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/manoeuvre_messages.h"
-#include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -55,7 +55,7 @@ void PilotNode::answer(const hovercraft_sim::State& state) {
   const auto motion = toObservedMotion(state, step_ns_);
   if (!motion) {
     ++dropped_;
-    if (drop_warnings_.isDue(steadyNow())) {
+    if (drop_warnings_.isDue(hovercraft::steadyNow())) {
       ROS_WARN(
           "%s: dropped a state: its numbers must be finite, its orientation a unit quaternion, "
           "its tick one that a simulation can reach (%lu dropped so far)",
@@ -80,7 +80,7 @@ void PilotNode::answer(const hovercraft_sim::State& state) {
 void PilotNode::warnOfMissed(hovercraft::Tick last, hovercraft::Tick now) {
   if (!pilot_.hasMissed(last, now)) return;
   ++missed_;
-  if (!miss_warnings_.isDue(steadyNow())) return;
+  if (!miss_warnings_.isDue(hovercraft::steadyNow())) return;
   ROS_WARN(
       "no state at a tick of a decision: states come every %ld ticks, decisions every %ld: the "
       "flight is another one than with a state for each (%lu late so far)",

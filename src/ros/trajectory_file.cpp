@@ -17,6 +17,7 @@
 #include "hovercraft_sim/ros/bag_file.h"
 #include "hovercraft_sim/ros/conversions.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/input_file.h"
 #include "hovercraft_sim/sim/states_csv.h"
 
 namespace hovercraft_ros {
@@ -257,7 +258,7 @@ std::vector<Trajectory> readBagTrajectories(const std::string& path) {
 }
 
 std::vector<Trajectory> readTrajectories(const std::string& path) {
-  return isBag(path) ? readBagTrajectories(path) : hovercraft::readStatesCsv(path);
+  return hovercraft::isBag(path) ? readBagTrajectories(path) : hovercraft::readStatesCsv(path);
 }
 
 }  // namespace hovercraft_ros

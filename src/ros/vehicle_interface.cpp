@@ -8,8 +8,8 @@
 #include <std_msgs/Float64.h>
 
 #include "hovercraft_sim/ros/conversions.h"
-#include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/sim/actuator_topics.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -133,7 +133,7 @@ void VehicleInterface::take(const std::optional<hovercraft::Command>& command,
   const char* refusal = command ? owner_.take(*command, stamp) : rule;
   if (refusal != nullptr) {
     ++dropped_commands_;
-    if (drop_warnings_.isDue(steadyNow())) {
+    if (drop_warnings_.isDue(hovercraft::steadyNow())) {
       ROS_WARN("%s: dropped a command: %s (%lu dropped so far)", topic.c_str(), refusal,
                static_cast<unsigned long>(dropped_commands_));
     }
@@ -147,7 +147,7 @@ void VehicleInterface::noteSaturation(const hovercraft::Command& command,
   const auto& craft = run_.simulation().scenario().vehicles[vehicle_];
   if (!exceedsLimits(command, craft)) return;
   ++saturated_commands_;
-  if (saturation_warnings_.isDue(steadyNow())) {
+  if (saturation_warnings_.isDue(hovercraft::steadyNow())) {
     ROS_WARN("%s: a thrust beyond the engine's limits is saturated (%lu so far)", source.c_str(),
              static_cast<unsigned long>(saturated_commands_));
   }

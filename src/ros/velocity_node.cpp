@@ -9,8 +9,8 @@
 #include <ros/transport_hints.h>
 
 #include "hovercraft_sim/hovercraft/engines.h"
-#include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 #include "hovercraft_sim/sim/velocity_parameters.h"
 #include "hovercraft_sim/sim/yaml_text.h"
 
@@ -73,7 +73,7 @@ VelocityNode::VelocityNode(ros::NodeHandle& handle, const VelocityNodeConfig& co
 void VelocityNode::take(const geometry_msgs::Twist& command) {
   const hovercraft::PlanarVelocity wanted = {command.linear.x, command.linear.y, command.angular.z};
   if (!isMotion(wanted)) {
-    if (warnings_.isDue(steadyNow())) ROS_WARN("cmd_vel: %s", kRule);
+    if (warnings_.isDue(hovercraft::steadyNow())) ROS_WARN("cmd_vel: %s", kRule);
     return;
   }
   command_ = wanted;
@@ -91,7 +91,7 @@ void VelocityNode::answer(const nav_msgs::Odometry& odometry) {
   const auto& twist = odometry.twist.twist;
   const hovercraft::PlanarVelocity measured = {twist.linear.x, twist.linear.y, twist.angular.z};
   if (!isMotion(measured)) {
-    if (warnings_.isDue(steadyNow())) ROS_WARN("odom: %s", kRule);
+    if (warnings_.isDue(hovercraft::steadyNow())) ROS_WARN("odom: %s", kRule);
     return;
   }
   const double dt = last_ns_ ? 1e-9 * static_cast<double>(now_ns - *last_ns_) : 0.0;

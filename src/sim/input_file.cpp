@@ -3,7 +3,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <stdexcept>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -114,6 +116,15 @@ std::string InputFile::readRest(std::size_t most_bytes) {
 
 std::string readWholeFile(const std::string& path, std::size_t most_bytes) {
   return InputFile(path, InputKind::kFile).readRest(most_bytes);
+}
+
+bool isBag(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  const std::string magic = "#ROSBAG ";
+  std::string begin(magic.size(), '\0');
+  std::ifstream(path, std::ios::binary).read(&begin[0], static_cast<std::streamsize>(begin.size()));
+  return begin == magic;
 }
 
 }  // namespace hovercraft

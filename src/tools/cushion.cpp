@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/ros/simulate.h"
 #include "hovercraft_sim/sim/hover_report.h"
+#include "hovercraft_sim/sim/late_ros_files.h"
 #include "hovercraft_sim/sim/version.h"
 
 namespace {
@@ -49,10 +49,11 @@ int main(int argc, char** argv) {
       return 0;
     }
     po::notify(values);
+    hovercraft::LateRosFiles ros(HOVERCRAFT_ROS_LIBRARY);
     std::vector<std::string> sets;
     if (values.count("set") > 0) sets = values["set"].as<std::vector<std::string>>();
     const hovercraft::Scenario scenario =
-        hovercraft_ros::loadScenarioFile(values["scenario"].as<std::string>(), {"--set", sets});
+        hovercraft::loadScenarioFile(values["scenario"].as<std::string>(), {"--set", sets}, ros);
     const auto reports = hovercraft::hoverReports(scenario, values["vehicle"].as<std::string>());
     std::cout << (values["json"].as<bool>() ? toJson(reports) : toText(reports));
   } catch (const std::exception& error) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/sim/late_ros_files.h"
 #include "hovercraft_sim/sim/mass_report.h"
 #include "hovercraft_sim/sim/mesh_scale.h"
 #include "hovercraft_sim/sim/version.h"
@@ -76,8 +76,10 @@ int main(int argc, char** argv) {
     }
     po::notify(values);
     const hovercraft::MassReportRequest request = requestFrom(values);
-    const auto bodies = hovercraft::bodiesOf(
-        request, [](const std::string& path) { return hovercraft_ros::loadScenarioFile(path); });
+    hovercraft::LateRosFiles ros(HOVERCRAFT_ROS_LIBRARY);
+    const auto bodies = hovercraft::bodiesOf(request, [&ros](const std::string& path) {
+      return hovercraft::loadScenarioFile(path, {}, ros);
+    });
     for (const auto& body : bodies) {
       for (const std::string& note : body.notes) std::cerr << "mass_properties: " << note << '\n';
     }

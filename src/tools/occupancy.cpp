@@ -5,7 +5,7 @@
 #include <iostream>
 #include <string>
 
-#include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/sim/late_ros_files.h"
 #include "hovercraft_sim/sim/version.h"
 
 namespace {
@@ -53,8 +53,9 @@ int main(int argc, char** argv) {
       return 0;
     }
     po::notify(values);
+    hovercraft::LateRosFiles ros(HOVERCRAFT_ROS_LIBRARY);
     hovercraft::writeMap(
-        hovercraft::occupancyOf(hovercraft_ros::loadScenarioFile(scenario), request), output);
+        hovercraft::occupancyOf(hovercraft::loadScenarioFile(scenario, {}, ros), request), output);
   } catch (const std::exception& error) {
     std::cerr << "occupancy: " << error.what() << '\n';
     return 1;

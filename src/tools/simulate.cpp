@@ -1,17 +1,18 @@
-#include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/sim/simulate.h"
 
 #include <boost/program_options.hpp>
 #include <exception>
 #include <iostream>
 #include <unistd.h>
 
+#include "hovercraft_sim/sim/late_ros_files.h"
 #include "hovercraft_sim/sim/version.h"
 
 namespace {
 
 namespace po = boost::program_options;
 
-po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
+po::options_description optionsOf(hovercraft::SimulateRequest& request) {
   po::options_description options("Options");
   auto add = options.add_options();
   add("scenario", po::value(&request.scenario)->required(), "scenario file (YAML)");
@@ -48,7 +49,7 @@ po::options_description optionsOf(hovercraft_ros::SimulateRequest& request) {
 
 int main(int argc, char** argv) {
   try {
-    hovercraft_ros::SimulateRequest request;
+    hovercraft::SimulateRequest request;
     const po::options_description options = optionsOf(request);
     po::positional_options_description positions;
     positions.add("scenario", 1);
@@ -69,7 +70,8 @@ int main(int argc, char** argv) {
     }
     po::notify(values);
     request.shows_progress = isatty(STDERR_FILENO) != 0;
-    hovercraft_ros::simulate(request, std::cerr);
+    hovercraft::LateRosFiles ros(HOVERCRAFT_ROS_LIBRARY);
+    hovercraft::simulate(request, std::cerr, ros);
   } catch (const std::exception& error) {
     std::cerr << "simulate: " << error.what() << '\n';
     return 1;

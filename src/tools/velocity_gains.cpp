@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/sim/late_ros_files.h"
 #include "hovercraft_sim/sim/velocity_parameters.h"
 #include "hovercraft_sim/sim/version.h"
 
@@ -49,7 +49,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     po::notify(values);
-    const hovercraft::Scenario loaded = hovercraft_ros::loadScenarioFile(scenario);
+    hovercraft::LateRosFiles ros(HOVERCRAFT_ROS_LIBRARY);
+    const hovercraft::Scenario loaded = hovercraft::loadScenarioFile(scenario, {}, ros);
     std::cout << hovercraft::velocityYaml(
         hovercraft::velocityParametersOf(vehicleOf(loaded, vehicle)), scenario);
   } catch (const std::exception& error) {

@@ -18,9 +18,9 @@
 
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/ros/conversions.h"
-#include "hovercraft_sim/ros/steady_clock.h"
 #include "hovercraft_sim/ros/vehicle_messages.h"
 #include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 
 namespace hovercraft_ros {
 
@@ -218,7 +218,7 @@ void SimulationLink::hearPose(std::size_t body, const geometry_msgs::PoseStamped
 
 void SimulationLink::hearTelemetry(const hovercraft_sim::Telemetry& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  heard_ns_ = steadyNow();
+  heard_ns_ = hovercraft::steadyNow();
   pace_.is_there = true;
   pace_.is_paused = message.paused != 0;
   pace_.wanted = message.wanted_real_time_factor;
@@ -242,7 +242,7 @@ std::optional<LiveState> SimulationLink::takeState() {
 LivePace SimulationLink::pace() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   LivePace pace = pace_;
-  pace.is_there = pace.is_there && steadyNow() - heard_ns_ < kGoneNs;
+  pace.is_there = pace.is_there && hovercraft::steadyNow() - heard_ns_ < kGoneNs;
   return pace;
 }
 

@@ -7,7 +7,7 @@
 #include <boost/beast/http/field.hpp>
 #include <chrono>
 
-#include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 #include "hovercraft_sim/web/client_message.h"
 
 namespace hovercraft_ros {
@@ -58,7 +58,7 @@ void ViewerConnection::onAccepted(const beast::error_code& error) {
 }
 
 bool ViewerConnection::isWithinRate() {
-  return rate_.take(steadyNow());
+  return rate_.take(hovercraft::steadyNow());
 }
 
 void ViewerConnection::read() {
@@ -90,7 +90,7 @@ void ViewerConnection::onRead(const beast::error_code& error) {
 void ViewerConnection::refuse(websocket::close_code code, const char* reason) {
   if (is_closing_) return;
   is_closing_ = true;
-  closing_since_ns_ = steadyNow();
+  closing_since_ns_ = hovercraft::steadyNow();
   stream_.async_close({code, reason},
                       [self = shared_from_this()](const beast::error_code&) { self->end(); });
 }
@@ -122,7 +122,7 @@ void ViewerConnection::writeNext() {
   } else {
     return;
   }
-  write_began_ns_ = steadyNow();
+  write_began_ns_ = hovercraft::steadyNow();
   stream_.async_write(boost::asio::buffer(*writing_),
                       [self = shared_from_this()](const beast::error_code& error, std::size_t) {
                         self->onWritten(error);
@@ -145,7 +145,7 @@ bool ViewerConnection::isStalled(std::int64_t now_ns) const {
 
 void ViewerConnection::drop() {
   is_closing_ = true;
-  closing_since_ns_ = steadyNow();
+  closing_since_ns_ = hovercraft::steadyNow();
   waiting_.clear();
   state_.reset();
   beast::get_lowest_layer(stream_).close();  // what is being read or written ends with an error

@@ -11,7 +11,7 @@
 #include <ros/init.h>
 #include <ros/spinner.h>
 
-#include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 
 namespace hovercraft_ros {
 namespace {
@@ -57,7 +57,7 @@ void WebNode::tick() {
     return;
   }
   stopCraft();
-  const std::int64_t now_ns = steadyNow();
+  const std::int64_t now_ns = hovercraft::steadyNow();
   // Half a tick early is nearer than half a tick late.
   const std::int64_t slack_ns = std::chrono::nanoseconds(kTick).count() / 2;
   if (now_ns - last_news_ns_ >= period_ns_ - slack_ns) {
@@ -71,7 +71,7 @@ void WebNode::tick() {
 }
 
 void WebNode::stopCraft() {
-  const std::int64_t now_ns = steadyNow();
+  const std::int64_t now_ns = hovercraft::steadyNow();
   if (seats_.lapse(now_ns)) showSeats();
   for (const std::size_t craft : seats_.takeStops(now_ns)) {
     std::map<std::string, double> levels;
@@ -175,7 +175,7 @@ void WebNode::act(ViewerId id, const DriveMessage& message) {
     if (!is_known) return noteTo(id, "the craft has no such actuator");
   }
   // Not said: he may have lost the seat while this was on its way.
-  if (!seats_.drive(*craft, id, steadyNow())) return;
+  if (!seats_.drive(*craft, id, hovercraft::steadyNow())) return;
   if (!message.levels.empty()) link_.drive(*craft, message.levels);
 }
 
@@ -183,7 +183,7 @@ void WebNode::act(ViewerId id, const SeatMessage& message) {
   const auto craft = craftNamed(message.craft);
   if (!craft) return noteTo(id, "there is no such craft");
   if (message.take) {
-    if (!seats_.take(*craft, id, steadyNow())) {
+    if (!seats_.take(*craft, id, hovercraft::steadyNow())) {
       noteTo(id, nameOf(*seats_.driver(*craft)) + " drives " + craft_[*craft]);
     }
   } else {

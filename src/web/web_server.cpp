@@ -14,7 +14,7 @@
 #include <ros/console.h>
 
 #include "hovercraft_sim/report/front_end.h"
-#include "hovercraft_sim/ros/steady_clock.h"
+#include "hovercraft_sim/sim/steady_clock.h"
 #include "hovercraft_sim/web/viewer_connection.h"
 
 namespace hovercraft_ros {
@@ -237,7 +237,7 @@ void WebServer::sendStateToAll(const SharedText& text) {
 }
 
 void WebServer::dropStalled() {
-  const std::int64_t now_ns = steadyNow();
+  const std::int64_t now_ns = hovercraft::steadyNow();
   for (const auto& [id, viewer] : viewers_) {
     if (viewer->isStalled(now_ns)) viewer->drop();
   }

@@ -54,7 +54,7 @@ const std::map<std::string, Rule>& rules() {
       {"sim",
        {{"math", "geometry", "body", "cushion", "hovercraft", "collision", "contact", "control",
          "pilot", "sensors", "world"},
-        {"fmt/", "yaml-cpp/", "png.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
+        {"fmt/", "yaml-cpp/", "png.h", "dlfcn.h", "fcntl.h", "sys/stat.h", "unistd.h"}}},
       {"ros",
        {{"math", "geometry", "body", "cushion", "hovercraft", "control", "pilot", "sensors", "sim"},
         of_ros + Names{"unistd.h", "XmlRpcClient.h", "XmlRpcValue.h"}}},

@@ -12,10 +12,10 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include "hovercraft_sim/ros/progress_bar.h"
 #include "hovercraft_sim/ros/simulate.h"
 #include "hovercraft_sim/ros/trajectory_file.h"
 #include "hovercraft_sim/sim/compare.h"
+#include "hovercraft_sim/sim/progress_bar.h"
 #include "hovercraft_sim/sim/states_csv.h"
 
 #include "../support/files.h"
@@ -228,8 +228,8 @@ TEST_F(Simulate, DrawsABarOnlyIfAskedTo) {
 TEST(ProgressBar, FillsAsItGoesAndIsWiped) {
   std::ostringstream terminal;
   {
-    ProgressBar bar(terminal, 200);
-    const ProgressBar::Clock::time_point begin;
+    hovercraft::ProgressBar bar(terminal, 200);
+    const hovercraft::ProgressBar::Clock::time_point begin;
     bar.show(100, begin);
     bar.show(101, begin + std::chrono::milliseconds(99));  // too soon to be drawn
     bar.show(200, begin + std::chrono::milliseconds(100));

@@ -84,6 +84,23 @@ TEST_F(Tools, SimulateAndCompareWorkTogether) {
   EXPECT_EQ(run("compare {}a.csv {}held.csv --tolerance 10 --attitude-tolerance 10").status, 0);
 }
 
+// What takes longer to load than a short run takes is loaded where a bag is asked for.
+TEST_F(Tools, RunsOfCsvFilesLoadNoRos) {
+  folder_.write("s.yaml", oneCraftYaml());
+  const std::string loads = "bash -c 'LD_DEBUG=libs " + toolFolder();
+  const auto loads_ros = [&](const std::string& command) {
+    const Outcome outcome = run(loads + command + "'");
+    EXPECT_EQ(outcome.status, 0) << command;
+    EXPECT_NE(outcome.output.find("calling init:"), std::string::npos) << command;
+    return outcome.output.find("librosbag") != std::string::npos;
+  };
+  EXPECT_FALSE(loads_ros("simulate {}s.yaml -d 0.1 -o {}a.csv"));
+  EXPECT_FALSE(loads_ros("mass_properties {}s.yaml"));
+  EXPECT_FALSE(loads_ros("cushion config/rc5.yaml"));
+  EXPECT_FALSE(loads_ros("velocity_gains {}s.yaml"));
+  EXPECT_TRUE(loads_ros("simulate {}s.yaml -d 0.1 -o {}a.bag"));
+}
+
 TEST_F(Tools, EachSaysItsVersionAndThatOfThePhysics) {
   for (const char* tool : {"closest", "compare", "cushion", "mass_properties", "occupancy",
                            "replay", "report", "simulate", "velocity_gains"}) {

@@ -14,9 +14,6 @@
 
 namespace hovercraft_ros {
 
-/// True if the file exists and begins as a bag does.
-HOVERCRAFT_PUBLIC bool isBag(const std::string& path);
-
 /// Opens a bag for reading, after its structure was checked (bag_check.h).
 /// @throws std::invalid_argument that names the file and the reason: not there, not a regular file,
 /// not a bag, damaged, without an index.

@@ -64,4 +64,7 @@ class HOVERCRAFT_PUBLIC InputFile {
 /// @throws std::invalid_argument as InputFile.
 HOVERCRAFT_PUBLIC std::string readWholeFile(const std::string& path, std::size_t most_bytes);
 
+/// True if the file exists and begins as a bag does.
+HOVERCRAFT_PUBLIC bool isBag(const std::string& path);
+
 }  // namespace hovercraft

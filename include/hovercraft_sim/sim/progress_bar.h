@@ -6,7 +6,7 @@
 
 #include "hovercraft_sim/math/export.h"
 
-namespace hovercraft_ros {
+namespace hovercraft {
 
 /// A line on a terminal that shows how much is done; it is drawn at most ten times a second.
 class HOVERCRAFT_PUBLIC ProgressBar {
@@ -29,4 +29,4 @@ class HOVERCRAFT_PUBLIC ProgressBar {
   Clock::time_point last_;
 };
 
-}  // namespace hovercraft_ros
+}  // namespace hovercraft

@@ -1,10 +1,10 @@
-#include "hovercraft_sim/ros/progress_bar.h"
+#include "hovercraft_sim/sim/progress_bar.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <string>
 
-namespace hovercraft_ros {
+namespace hovercraft {
 namespace {
 
 constexpr std::int64_t kWidth = 40;  // characters
@@ -29,4 +29,4 @@ void ProgressBar::show(std::int64_t done, Clock::time_point now) {
             << std::flush;
 }
 
-}  // namespace hovercraft_ros
+}  // namespace hovercraft

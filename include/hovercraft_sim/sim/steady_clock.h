@@ -3,7 +3,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace hovercraft_ros {
+namespace hovercraft {
 
 /// Reading of a clock that never jumps, ns from an arbitrary origin. For pace and reports: no state
 /// depends on it.
@@ -13,4 +13,4 @@ inline std::int64_t steadyNow() {
       .count();
 }
 
-}  // namespace hovercraft_ros
+}  // namespace hovercraft
