@@ -27,11 +27,12 @@ struct Method {
   Integrator integrator;
   const char* name;
 };
-constexpr std::array<Method, 4> kMethods = {
+constexpr std::array<Method, 5> kMethods = {
     {{Integrator::kEuler, "euler"},
      {Integrator::kSemiImplicitEuler, "semi_implicit_euler"},
      {Integrator::kHeun, "heun"},
-     {Integrator::kRungeKutta4, "rk4"}}};
+     {Integrator::kRungeKutta4, "rk4"},
+     {Integrator::kLie4, "lie4"}}};
 
 struct Outcome {
   double attitude_error;  // rad

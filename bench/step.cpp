@@ -74,7 +74,8 @@ void registerAll() {
   for (const Named& method :
        {Named{"euler", Integrator::kEuler},
         Named{"semi_implicit_euler", Integrator::kSemiImplicitEuler},
-        Named{"heun", Integrator::kHeun}, Named{"rk4", Integrator::kRungeKutta4}}) {
+        Named{"heun", Integrator::kHeun}, Named{"rk4", Integrator::kRungeKutta4},
+        Named{"lie4", Integrator::kLie4}}) {
     const std::string name = method.name;
     registerCase("spatial/quaternion/" + name,
                  {method.integrator, OrientationKind::kQuaternion, BodyModel::kSpatial});

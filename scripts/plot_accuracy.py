@@ -16,7 +16,8 @@ import matplotlib.pyplot as plt  # noqa: E402  (the backend is chosen first)
 BODY = 'free asymmetric body'
 OURS = 'hovercraft_sim'
 STYLES = {'euler': ('#d55e00', 's', 'Euler'), 'semi_implicit_euler': ('#e69f00', '.', 'semi-implicit Euler (the same without torque)'),
-          'heun': ('#0072b2', '^', 'Heun'), 'rk4': ('#009e73', 'D', 'Runge-Kutta 4')}
+          'heun': ('#0072b2', '^', 'Heun'), 'rk4': ('#009e73', 'D', 'Runge-Kutta 4'),
+          'lie4': ('#56b4e9', 'h', 'Lie group method of order 4')}
 PEER_MARKERS = 'xP*v+'
 ORDERS = {'euler': 1, 'heun': 2, 'rk4': 4}
 

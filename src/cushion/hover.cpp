@@ -207,6 +207,7 @@ std::complex<double> amplification(Integrator integrator, const std::complex<dou
     case Integrator::kHeun:
       return 1.0 + z * (1.0 + 0.5 * z);
     case Integrator::kRungeKutta4:
+    case Integrator::kLie4:  // the same where nothing turns
       return 1.0 + z * (1.0 + z * (0.5 + z * (1.0 / 6.0 + z / 24.0)));
     case Integrator::kEuler:
     case Integrator::kSemiImplicitEuler:

@@ -146,8 +146,10 @@ inline PlanarCraft::State PlanarCraft::stepped(Integrator integrator, const Stat
       const State both = sum(k2, k3);
       return moved(y, h / 6.0, sum(sum(k1, k4), sum(both, both)));
     }
+    case Integrator::kLie4:
+      break;
   }
-  demand(false, "unknown integrator");
+  demand(false, "a planar step by this method must be made in full");
   return y;
 }
 

@@ -17,7 +17,8 @@ bool isLetter(char c) {
 }  // namespace
 
 const std::vector<std::string>& integratorNames() {
-  static const std::vector<std::string> names = {"euler", "semi_implicit_euler", "heun", "rk4"};
+  static const std::vector<std::string> names = {"euler", "semi_implicit_euler", "heun", "rk4",
+                                                 "lie4"};
   return names;
 }
 

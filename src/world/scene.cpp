@@ -61,7 +61,10 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
   demand(rules_.step > 0.0 && rules_.tolerance > 0.0, "a world needs a step and a tolerance");
   demand(rules_.pairs.size() == rules_.material_count * rules_.material_count,
          "a world needs a law for each pair of materials");
-  for (const WorldBody& body : bodies_) planar_.push_back(PlanarCraft::of(body.model));
+  for (const WorldBody& body : bodies_) {
+    planar_.push_back(PlanarCraft::has(rules_.integrator) ? PlanarCraft::of(body.model)
+                                                          : std::nullopt);
+  }
   if (!rules_.bodies_meet) return;
   for (const WorldBody& body : bodies_) {
     demand(body.hull.has_value(), "a body that meets others needs a hull");

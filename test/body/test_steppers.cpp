@@ -19,10 +19,10 @@ using testing::freeFlight;
 using testing::FreeSystem;
 using testing::stateOf;
 
-constexpr std::array<Integrator, 4> kIntegrators = {Integrator::kEuler,
-                                                    Integrator::kSemiImplicitEuler,
-                                                    Integrator::kHeun, Integrator::kRungeKutta4};
-constexpr std::array<int, 4> kOrders = {1, 1, 2, 4};
+constexpr std::array<Integrator, 5> kIntegrators = {
+    Integrator::kEuler, Integrator::kSemiImplicitEuler, Integrator::kHeun, Integrator::kRungeKutta4,
+    Integrator::kLie4};
+constexpr std::array<int, 5> kOrders = {1, 1, 2, 4, 4};
 constexpr double kOrderTolerance = 0.1;
 
 /// A body pushed and turned by forces that are fixed in it and change with time, and held back by

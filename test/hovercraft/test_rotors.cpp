@@ -17,7 +17,7 @@ using testing::kRounding;
 constexpr double kRotorStep = 1e-3;
 constexpr std::int64_t kRotorStepNs = 1000000;
 constexpr Integrator kMethods[] = {Integrator::kEuler, Integrator::kSemiImplicitEuler,
-                                   Integrator::kHeun, Integrator::kRungeKutta4};
+                                   Integrator::kHeun, Integrator::kRungeKutta4, Integrator::kLie4};
 
 /// Nothing acts on it.
 HovercraftModel freeCraft(const Mobility& mobility, std::vector<Rotor> rotors) {

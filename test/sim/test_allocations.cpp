@@ -72,7 +72,7 @@ TEST(Allocations, NoneInAStepWithEverySensor) {
 TEST(Allocations, NoneInAStepWhateverIntegratorOrientationAndModel) {
   Scenario scenario = testing::parsed(testing::validScenario());
   for (const auto integrator : {Integrator::kEuler, Integrator::kSemiImplicitEuler,
-                                Integrator::kHeun, Integrator::kRungeKutta4}) {
+                                Integrator::kHeun, Integrator::kRungeKutta4, Integrator::kLie4}) {
     for (const auto orientation : {OrientationKind::kQuaternion, OrientationKind::kMatrix}) {
       for (const auto model : {BodyModel::kPlanar, BodyModel::kSpatial}) {
         scenario.integrator = integrator;

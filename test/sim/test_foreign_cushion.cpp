@@ -118,8 +118,9 @@ TEST(ForeignEnvironment, GroundsAreTheSame) {
 }
 
 TEST(ForeignEnvironment, StepsOfModesAreTheSame) {
-  for (const Integrator integrator : {Integrator::kEuler, Integrator::kSemiImplicitEuler,
-                                      Integrator::kHeun, Integrator::kRungeKutta4}) {
+  for (const Integrator integrator :
+       {Integrator::kEuler, Integrator::kSemiImplicitEuler, Integrator::kHeun,
+        Integrator::kRungeKutta4, Integrator::kLie4}) {
     testing::expectSameBits("longestStableStep", [&] {
       return bitsOf(longestStableStep(integrator, {5.15, 83.1, 16801.7, 0.0}));
     });

@@ -93,7 +93,7 @@ Bits flown(const std::string& text, Tick ticks) {
 
 TEST(ForeignEnvironment, ARunThatMeetsDenormalNumbersIsTheSame) {
   const std::string text = scenarioWithDenormals();
-  for (const char* integrator : {"euler", "semi_implicit_euler", "heun", "rk4"}) {
+  for (const char* integrator : {"euler", "semi_implicit_euler", "heun", "rk4", "lie4"}) {
     for (const char* orientation : {"matrix", "quaternion"}) {
       const std::string changed =
           with(with(text, "integrator: rk4", "integrator: " + std::string(integrator)),

@@ -162,7 +162,7 @@ TEST(ScenarioWriter, EveryChoiceHasItsWord) {
   scenario.vehicles[0].initial_v_WB.z() = 0.0;
   scenario.vehicles[0].initial_w_WB = {0.0, 0.0, 0.6};
   for (const auto integrator : {Integrator::kEuler, Integrator::kSemiImplicitEuler,
-                                Integrator::kHeun, Integrator::kRungeKutta4}) {
+                                Integrator::kHeun, Integrator::kRungeKutta4, Integrator::kLie4}) {
     for (const auto orientation : {OrientationKind::kQuaternion, OrientationKind::kMatrix}) {
       for (const auto model : {BodyModel::kPlanar, BodyModel::kSpatial}) {
         scenario.integrator = integrator;

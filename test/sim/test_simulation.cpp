@@ -312,7 +312,7 @@ TEST(Simulation, MotionAtTickZeroIsTheScenarios) {
 TEST(Simulation, AStepTooLongForTheForcesThrows) {
   for (const auto orientation : {OrientationKind::kQuaternion, OrientationKind::kMatrix}) {
     for (const auto integrator : {Integrator::kEuler, Integrator::kSemiImplicitEuler,
-                                  Integrator::kHeun, Integrator::kRungeKutta4}) {
+                                  Integrator::kHeun, Integrator::kRungeKutta4, Integrator::kLie4}) {
       Scenario scenario = parsed(validScenario());
       scenario.integrator = integrator;
       scenario.orientation = orientation;

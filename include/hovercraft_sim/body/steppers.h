@@ -31,7 +31,7 @@ namespace hovercraft {
 /// The time of a stage within one step: t, t + h/2, t + h.
 enum class Stage { kStart, kMiddle, kEnd };
 
-enum class Integrator { kEuler, kSemiImplicitEuler, kHeun, kRungeKutta4 };
+enum class Integrator { kEuler, kSemiImplicitEuler, kHeun, kRungeKutta4, kLie4 };
 
 template <class Orientation>
 StateDerivative<Orientation> operator+(const StateDerivative<Orientation>& a,
@@ -92,6 +92,59 @@ template <class Orientation, class System>
   return moved(y, h / 6.0, (k1 + k4) + (middle + middle));
 }
 
+/// The angular velocity (W, rad/s) of which orientationRate() made this.
+inline Vector3 turnRate(const Quaternion& rate, const Quaternion& q_WB) {
+  return angularVelocityOf(rate, q_WB);
+}
+inline Vector3 turnRate(const Matrix3& rate, const Matrix3& R_WB) {
+  // [w]x = R' R^T: each component of w from the two entries that hold it.
+  const Matrix3 skew = product(rate, R_WB.transpose());
+  return {0.5 * (skew(2, 1) - skew(1, 2)), 0.5 * (skew(0, 2) - skew(2, 0)),
+          0.5 * (skew(1, 0) - skew(0, 1))};
+}
+/// The orientation after a turn by u (in W, rad).
+inline Quaternion turned(const Vector3& u, const Quaternion& q_WB) {
+  return quaternionOfSmallTurn(u) * q_WB;
+}
+inline Matrix3 turned(const Vector3& u, const Matrix3& R_WB) {
+  return product(rotationMatrix(quaternionOfSmallTurn(u)), R_WB);
+}
+
+/// moved() with the orientation turned instead.
+template <class Orientation>
+RigidBodyState<Orientation> movedAndTurned(const RigidBodyState<Orientation>& state, double h,
+                                           const StateDerivative<Orientation>& k,
+                                           const Orientation& orientation) {
+  return {state.p_WB + h * k.v_WB, orientation, state.momentum_W + h * k.force_W,
+          state.angular_momentum_W + h * k.torque_W};
+}
+
+/// The commutator-free Lie group method of order 4 (Celledoni, Marthinsen and Owren,
+/// Commutator-free Lie group methods, Future Generation Computer Systems 19 (2003) 341):
+/// orientations are turned by exponentials, and so stay rotations in every stage. Position and
+/// momenta go by the classical Runge-Kutta method, which it is where nothing turns.
+template <class Orientation, class System>
+[[gnu::flatten]] RigidBodyState<Orientation> lie4Step(const RigidBodyState<Orientation>& y,
+                                                      const System& f, double h) {
+  const auto k1 = f.derivative(y, Stage::kStart);
+  const Vector3 w1 = turnRate(k1.orientation_rate, y.orientation);
+  const Orientation half = turned((0.5 * h) * w1, y.orientation);
+  const auto y2 = movedAndTurned(y, 0.5 * h, k1, half);
+  const auto k2 = f.derivative(y2, Stage::kMiddle);
+  const Vector3 w2 = turnRate(k2.orientation_rate, y2.orientation);
+  const auto y3 = movedAndTurned(y, 0.5 * h, k2, turned((0.5 * h) * w2, y.orientation));
+  const auto k3 = f.derivative(y3, Stage::kMiddle);
+  const Vector3 w3 = turnRate(k3.orientation_rate, y3.orientation);
+  const auto y4 = movedAndTurned(y, h, k3, turned(h * (w3 - 0.5 * w1), half));
+  const auto k4 = f.derivative(y4, Stage::kEnd);
+  const Vector3 w4 = turnRate(k4.orientation_rate, y4.orientation);
+  const Vector3 middle = 2.0 * (w2 + w3);
+  const Orientation first = turned((h / 12.0) * ((3.0 * w1 - w4) + middle), y.orientation);
+  const Orientation end = turned((h / 12.0) * ((3.0 * w4 - w1) + middle), first);
+  const auto twice = k2 + k3;
+  return movedAndTurned(y, h / 6.0, (k1 + k4) + (twice + twice), end);
+}
+
 /// One step of length h (s) by the chosen method; the orientation of the result is a rotation
 /// again.
 template <class Orientation, class System>
@@ -108,6 +161,8 @@ RigidBodyState<Orientation> integrationStep(Integrator integrator,
         return heunStep(y, f, h);
       case Integrator::kRungeKutta4:
         return rungeKutta4Step(y, f, h);
+      case Integrator::kLie4:
+        return lie4Step(y, f, h);
     }
     demand(false, "unknown integrator");
     return y;

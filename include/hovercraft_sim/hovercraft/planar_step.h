@@ -25,10 +25,14 @@ class PlanarCraft {
   /// part which is left out might overflow.
   [[nodiscard]] static std::optional<PlanarCraft> of(const HovercraftModel& model);
 
+  /// Of which methods it has the steps.
+  static bool has(Integrator integrator) { return integrator != Integrator::kLie4; }
+
   /// Whether step() gives the bits of a step in full: neither load nor roll, pitch or -0.
   bool takes(const RigidBodyState<Quaternion>& y, const DrivenBody& f) const;
 
-  /// One step of length h (s). The inputs are those that takes() was asked of.
+  /// One step of length h (s) by a method that it has(). The inputs are those that takes() was
+  /// asked of.
   void step(Integrator integrator, const RigidBodyState<Quaternion>& y, const DrivenBody& f,
             double h, RigidBodyState<Quaternion>& end) const;
 

@@ -106,13 +106,13 @@ RigidBodyState<Orientation> bodyStep(Integrator integrator, const RigidBodyState
   Wrench middle;
   Wrench end;
   DrivenBodyOfEngines system = {f, &start, &start, &start};
-  const bool is_of_two_stages =
-      integrator == Integrator::kHeun || integrator == Integrator::kRungeKutta4;
-  if (!f.is_steady && is_of_two_stages) {
+  const bool is_of_order_4 =
+      integrator == Integrator::kRungeKutta4 || integrator == Integrator::kLie4;
+  if (!f.is_steady && (is_of_order_4 || integrator == Integrator::kHeun)) {
     end = model.wrenchOfEngines(f.thrusts.end);
     system.end = &end;
   }
-  if (!f.is_steady && integrator == Integrator::kRungeKutta4) {
+  if (!f.is_steady && is_of_order_4) {
     middle = model.wrenchOfEngines(f.thrusts.middle);
     system.middle = &middle;
   }

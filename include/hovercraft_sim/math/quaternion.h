@@ -63,6 +63,20 @@ inline Quaternion quaternionRateBody(const Quaternion& q_WB, const Vector3& w_WB
   return 0.5 * (q_WB * Quaternion{0.0, w_WB_B});
 }
 
+/// The angular velocity in W, rad/s, at which a unit quaternion changes so: [0, w] = 2 q' q*.
+inline Vector3 angularVelocityOf(const Quaternion& rate, const Quaternion& q_WB) {
+  return 2.0 * ((q_WB.s * rate.v - rate.s * q_WB.v) - cross(rate.v, q_WB.v));
+}
+
+/// exp([0, u/2]): the rotation about u by |u| rad, by Taylor's series of sine and cosine; to the
+/// last bit or two for |u| < 0.1, and off by |u|^8 5e-9 beyond.
+inline Quaternion quaternionOfSmallTurn(const Vector3& u) {
+  const double x = 0.25 * squaredNorm(u);
+  const double s = 1.0 - x * (1.0 / 2.0 - x * (1.0 / 24.0 - x * (1.0 / 720.0 - x / 40320.0)));
+  const double sinc = 0.5 - x * (1.0 / 12.0 - x * (1.0 / 240.0 - x / 10080.0));
+  return {s, sinc * u};
+}
+
 /// v_W = q v_B q* (28), for a unit q.
 inline Vector3 rotate(const Quaternion& q_WB, const Vector3& v_B) {
   return (q_WB * Quaternion{0.0, v_B} * conjugate(q_WB)).v;
