@@ -11,7 +11,7 @@ namespace hovercraft::testing {
 // ---- choices, names, structure ------------------------------------------------------------------
 inline const std::vector<BrokenRule> kBrokenStructures = {
     {"UnknownIntegrator", "integrator: rk4", "integrator: rk5",
-     "integrator = rk5: must be one of: euler, semi_implicit_euler, heun, rk4"},
+     "integrator = rk5: must be one of: euler, semi_implicit_euler, heun, rk4, lie4"},
     {"UnknownOrientation", "orientation: matrix", "orientation: euler_angles",
      "orientation = euler_angles: must be one of: quaternion, matrix"},
     {"UnknownModel", "model: spatial", "model: Planar",
