@@ -69,6 +69,10 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
   for (const WorldObstacle& obstacle : obstacles_) {
     obstacle_boxes_.push_back(boundsOf(obstacle.hull, obstacle.X_WO));
     obstacle_sides_.push_back(sidesOf(obstacle));
+    StepMotion still;
+    still.p_WB = obstacle.X_WO.p_AB;
+    still.q_WB = quaternionFromMatrix(obstacle.X_WO.R_AB);
+    obstacle_motions_.push_back(still);
   }
 }
 

@@ -171,7 +171,7 @@ bool World::stepGroups(const std::vector<StepInputs>& inputs, const std::vector<
     const auto group = static_cast<std::int32_t>(first);
     if (group_[first] != group || !listGroup(group)) continue;
     Island island(scene_, inputs, scratch_, result.records);
-    island.begin(group_bodies_, group_pairs_, states, memory);
+    island.begin(group_bodies_, group_pairs_, states, result.states, memory);
     if (!island.run()) ++cut_off_;
     enough = takeIsland(result) && enough;
   }
@@ -194,6 +194,7 @@ int World::step(const std::vector<StepInputs>& inputs, const std::vector<BodySta
   }
   bool done = false;
   for (int attempt = 0; attempt < kMaxRestarts && !done; ++attempt) {
+    if (attempt > 0) scene_.moveAll(states, inputs, result.states);
     findNearPairs(states);
     result.memory.clear();
     result.records.clear();

@@ -54,6 +54,9 @@ class Scene {
   const Pose& fixedPose(std::int32_t index) const {
     return obstacles_[static_cast<std::size_t>(index) - bodies_.size()].X_WO;
   }
+  const StepMotion& fixedMotion(std::int32_t index) const {
+    return obstacle_motions_[static_cast<std::size_t>(index) - bodies_.size()];
+  }
   const AxisAlignedBox& fixedBox(std::size_t obstacle) const { return obstacle_boxes_[obstacle]; }
   Pose poseIn(const std::vector<BodyState>& states, std::int32_t index) const;
 
@@ -115,6 +118,7 @@ class Scene {
   std::vector<WorldObstacle> obstacles_;
   std::vector<Extent> extents_;  // of each body, where bodies meet
   std::vector<AxisAlignedBox> obstacle_boxes_;
+  std::vector<StepMotion> obstacle_motions_;       // standing still
   std::vector<std::vector<Side>> obstacle_sides_;  // none of those of many faces
 };
 
