@@ -300,9 +300,44 @@ void reportBuild(int n) {
              bytes / static_cast<std::size_t>(n));
 }
 
+/// Processor time of a query, ns. @param keeps the end of the last query as the start, else none.
+double queryTime(const Scene& scene, bool keeps) {
+  FeaturePair last;
+  double sum = 0.0;
+  const double start = threadTime();
+  for (std::size_t i = 0; i < kQueries; ++i) {
+    last.known = keeps && last.known;
+    sum += closestFeatures(scene.A, scene.poses_A[i], scene.B, scene.poses_B[i], last).distance;
+  }
+  const double time = (threadTime() - start) / kQueries;
+  if (!(sum > 0.0)) fmt::print(stderr, "no distance\n");
+  return time;
+}
+
+/// Bodies that jump from pose to pose: queries that start where the last one ended, and fresh ones,
+/// in turn.
+void reportJumps(int n) {
+  RandomBodies random(static_cast<unsigned>(2 * n));
+  std::vector<double> ratios;
+  for (int trajectory = 0; trajectory < 9; ++trajectory) {
+    const Scene scene = makeScene(random, n, false);
+    for (int repetition = 0; repetition < 5; ++repetition) {
+      const double fresh = queryTime(scene, false);
+      if (repetition > 0) ratios.push_back(queryTime(scene, true) / fresh);
+    }
+  }
+  std::sort(ratios.begin(), ratios.end());
+  fmt::print(stderr, "{} vertices: after a jump {:.2f} times a fresh query ({:.2f} to {:.2f})\n", n,
+             ratios[ratios.size() / 2], ratios.front(), ratios.back());
+}
+
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "jumps") {
+    for (const int n : {8, 32, 128, 512, 2048, 8192}) reportJumps(n);
+    return 0;
+  }
   fmt::print("library,n,mode,median_ns,steps,worst_relative_error\n");
   for (const int n : {8, 32, 128, 512, 2048, 8192}) {
     run(n, true);

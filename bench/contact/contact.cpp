@@ -12,10 +12,9 @@
 
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
-#include "hovercraft_sim/sim/simulation.h"
 
 #include "box_scene.h"
+#include "steps.h"
 
 namespace hovercraft::bench {
 namespace {
@@ -46,75 +45,9 @@ double processorTime() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
-/// A craft in free flight: no drag, no thrust.
-std::string craft(const std::string& model, const std::string& world) {
-  const char* engine =
-      "{position: [0, 0, 0], direction: [1, 0, 0], min_thrust: 0, max_thrust: 1, timeout: 0}";
-  return fmt::format(
-      "step_size: 0.001\nintegrator: heun\nmodel: {}\nvehicles:\n  craft:\n    parts: [{{box: "
-      "{{size: [0.6, 0.4, 0.12]}}, mass: 5}}]\n    engines: {{rear: {}, left: {}, right: {}}}\n"
-      "    initial: {{velocity: [0.5, 0.3, 0], angular_velocity: [0, 0, 0.5]}}\n{}",
-      model, engine, engine, engine, world);
-}
-
-std::string walls() {
-  std::string world = "world:\n  materials: {default: {restitution: 1}}\n  obstacles:\n";
-  const char* const places[] = {"[2.1, 0, 0]", "[-2.1, 0, 0]", "[0, 2.1, 0]", "[0, -2.1, 0]"};
-  for (int i = 0; i < 4; ++i) {
-    world += fmt::format("    wall_{}: {{box: {{size: {}}}, position: {}}}\n", i,
-                         i < 2 ? "[0.2, 4.4, 1]" : "[4.4, 0.2, 1]", places[i]);
-  }
-  return world;
-}
-
-std::string farObstacles(int count) {
-  std::string world = "world:\n  obstacles:\n";
-  for (int i = 0; i < count; ++i) {
-    world += fmt::format("    far_{}: {{box: {{size: [1, 1, 1]}}, position: [{}, {}, 0]}}\n", i,
-                         10000 + 3 * (i % 40), 10000 + 3 * (i / 40));
-  }
-  return world;
-}
-
-Simulation simulationOf(const std::string& yaml) {
-  return Simulation(parseScenario(yaml, {"bench", "", {}}));
-}
-
-/// ns per step, mean of a block.
-double blockTime(Simulation& simulation) {
-  constexpr int steps = 5000;
-  const double begin = processorTime();
-  for (int i = 0; i < steps; ++i) simulation.step();
-  return (processorTime() - begin) / steps * 1e9;
-}
-
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
-}
-
-/// Two scenarios in turn, so that the machine's other work meets both: medians of each, and of the
-/// ratios of neighbours.
-void compareSteps(const char* what, const std::string& first, const std::string& second) {
-  Simulation simulations[] = {simulationOf(first), simulationOf(second)};
-  std::vector<double> times[2];
-  std::vector<double> ratios;
-  for (int round = 0; round < 400; ++round) {
-    for (int i = 0; i < 2; ++i) times[i].push_back(blockTime(simulations[i]));
-    ratios.push_back(times[1].back() / times[0].back());
-  }
-  std::cout << fmt::format("step, {}: {:.0f} ns and {:.0f} ns, {:.3f} x\n", what, median(times[0]),
-                           median(times[1]), median(ratios))
-            << std::flush;
-}
-
-void stepCost() {
-  compareSteps("planar, without a world and in a pen", craft("planar", ""),
-               craft("planar", walls()));
-  compareSteps("spatial, without a world and in a pen", craft("spatial", ""),
-               craft("spatial", walls()));
-  compareSteps("10 and 1000 far obstacles", craft("planar", farObstacles(10)),
-               craft("planar", farObstacles(1000)));
 }
 
 /// 100 boxes of 0.2 m and 1 kg over a pen of 2 m, turned otherwise in each arrangement.
@@ -292,17 +225,23 @@ void energy(double step) {
 int main(int argc, char** argv) {
   using namespace hovercraft::bench;
   std::vector<std::string> names(argv + 1, argv + argc);
-  if (names.empty()) names = {"step", "energy", "heap"};
+  if (names.empty()) names = {"step", "hover", "pressed", "stack", "energy", "heap"};
   try {
     for (const std::string& name : names) {
       if (name == "step") {
         stepCost();
+      } else if (name == "hover") {
+        hoverCost();
+      } else if (name == "pressed") {
+        pressedCost();
+      } else if (name == "stack") {
+        stackCost();
       } else if (name == "energy") {
         for (const double step : {0.0005, 0.001}) energy(step);
       } else if (name == "heap") {
         heap();
       } else {
-        throw std::invalid_argument(name + ": must be step, energy or heap");
+        throw std::invalid_argument(name + ": must be step, hover, pressed, stack, energy or heap");
       }
     }
   } catch (const std::exception& error) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
@@ -27,17 +28,21 @@ Vector3 tangentTo(const Vector3& n) {
 
 void ContactSolver::clear() {
   bodies_.clear();
+  is_fixed_.clear();
   points_.clear();
 }
 
 std::int32_t ContactSolver::add(const ContactBody& body) {
   bodies_.push_back(body);
+  is_fixed_.push_back(
+      (body.inverse_mass.array() == 0.0).all() && (body.inverse_inertia.array() == 0.0).all() &&
+      (body.twist.v_WB.array() == 0.0).all() && (body.twist.w_WB.array() == 0.0).all());
   return static_cast<std::int32_t>(bodies_.size() - 1);
 }
 
 /// What a unit impulse on B along a direction, and against A, makes of the velocity of B against A
 /// there, 1/kg.
-Vector3 ContactSolver::velocityAlong(const Point& point, int direction) const {
+inline Vector3 ContactSolver::velocityAlong(const Point& point, int direction) const {
   const Vector3 inverse_mass =
       bodies_[at(point.a)].inverse_mass + bodies_[at(point.b)].inverse_mass;
   const Vector3 linear = inverse_mass.cwiseProduct(point.directions[direction]);
@@ -68,12 +73,29 @@ void ContactSolver::weigh(Point& point, const Vector3 (&velocities)[3]) {
   point.slip_mass = inverse(0.5 * (k_s + k_t) + std::sqrt(spread * spread + k_st * k_st));
 }
 
+/// Its directions: those of the last point, if that has the same normal.
+inline void ContactSolver::turnPoint(Point& point, const Vector3& nhat_AB_W) const {
+  point.directions[0] = nhat_AB_W;
+  if (points_.size() > 1) {
+    const Point& last = points_[points_.size() - 2];
+    // To the bit: a zero of the other sign would make others.
+    if (std::memcmp(&last.directions[0], &nhat_AB_W, sizeof nhat_AB_W) == 0) {
+      point.directions[1] = last.directions[1];
+      point.directions[2] = last.directions[2];
+      return;
+    }
+  }
+  point.directions[1] = tangentTo(nhat_AB_W);
+  point.directions[2] = cross(nhat_AB_W, point.directions[1]);
+}
+
 std::size_t ContactSolver::add(const ContactDemand& asked) {
   demand(asked.a >= 0 && asked.b >= 0 && at(std::max(asked.a, asked.b)) < bodies_.size(),
          "a point of contact must name two bodies");
   const ContactBody& A = bodies_[at(asked.a)];
   const ContactBody& B = bodies_[at(asked.b)];
-  Point point;
+  points_.emplace_back();
+  Point& point = points_.back();
   point.a = asked.a;
   point.b = asked.b;
   point.r_a = asked.p_WC - A.p_WB;
@@ -81,9 +103,8 @@ std::size_t ContactSolver::add(const ContactDemand& asked) {
   point.target = asked.target;
   point.friction = asked.friction;
   point.bilateral = asked.bilateral;
-  point.directions[0] = asked.nhat_AB_W;
-  point.directions[1] = tangentTo(asked.nhat_AB_W);
-  point.directions[2] = cross(asked.nhat_AB_W, point.directions[1]);
+  point.b_is_fixed = is_fixed_[at(asked.b)];
+  turnPoint(point, asked.nhat_AB_W);
   for (int i = 0; i < 3; ++i) {
     point.spin_a[i] = times(A.inverse_inertia, cross(point.r_a, point.directions[i]));
     point.spin_b[i] = times(B.inverse_inertia, cross(point.r_b, point.directions[i]));
@@ -96,7 +117,6 @@ std::size_t ContactSolver::add(const ContactDemand& asked) {
   // No sweep looks along the tangents of these.
   if (!point.bilateral && !(point.friction > 0.0)) point.lambda[1] = point.lambda[2] = 0.0;
   if (squaredNorm(point.lambda) > 0.0) apply(point, point.lambda);
-  points_.push_back(point);
   return points_.size() - 1;
 }
 
@@ -148,6 +168,7 @@ ContactSolver::Change ContactSolver::sweep() {
     sum.largest = std::max(sum.largest, relax(point));
     const Vector3 by = point.lambda - before_[k];
     sum.energy += dot(by, Vector3(by.cwiseProduct(point.inverse_mass)));
+    sum.any = sum.any || (by.array() != 0.0).any();
   }
   return sum;
 }
@@ -171,7 +192,8 @@ int ContactSolver::solve(const Limits& limits) {
   for (int sweeps = 1;; ++sweeps) {
     const Change change = sweep();
     const bool solved = change.largest <= limits.tolerance && sweeps >= limits.least_sweeps;
-    if (solved || sweeps >= limits.sweeps) return sweeps;
+    // After a sweep that changed nothing all that follow change nothing.
+    if (solved || sweeps >= limits.sweeps || !change.any) return sweeps;
     goOn(last_energy > 0.0 && change.energy <= last_energy ? change.energy / last_energy : 0.0);
     last_energy = change.energy;
   }

@@ -14,9 +14,10 @@ namespace {
 /// Most corners that a clipped face is followed with: each side of the other face adds one at most.
 constexpr int kMaxCorners = 64;
 
-struct PlacedBody {
+struct PlacedFace {
   const ConvexPolyhedron& body;
   const Pose& X_WB;
+  int face;
 };
 
 struct Corners {
@@ -54,49 +55,55 @@ int faceAlong(const ConvexPolyhedron& body, const Pose& X_WB, const Vector3& dir
   const PolyhedronData::Vertex& vertex = data.vertices[at(body.supportVertex(direction))];
   int best = -1;
   for (std::int32_t k = 0; k < vertex.fan_count; ++k) {
-    const std::int32_t edge = data.fan_edge[at(vertex.fan_begin + k)] / 2;
-    for (const std::int32_t face : data.edges[at(edge)].face) {
-      const double along = dot(data.faces[at(face)].normal, direction);
-      if (best < 0 || along > alignment || (along == alignment && face < best)) {
-        best = face;
-        alignment = along;
-      }
+    const std::int32_t spoke = data.fan_edge[at(vertex.fan_begin + k)];
+    const std::int32_t face = data.edges[at(spoke / 2)].face[spoke % 2];
+    const double along = dot(data.faces[at(face)].normal, direction);
+    if (best < 0 || along > alignment || (along == alignment && face < best)) {
+      best = face;
+      alignment = along;
     }
   }
   return best;
 }
 
 /// The corners of a face in W.
-Corners cornersOf(const ConvexPolyhedron& body, const Pose& X_WB, int face) {
-  const PolyhedronData& data = body.data();
-  const PolyhedronData::Face& f = data.faces[at(face)];
-  Corners corners;
+void addCorners(const PlacedFace& placed, Corners& corners) {
+  const PolyhedronData& data = placed.body.data();
+  const PolyhedronData::Face& f = data.faces[at(placed.face)];
   for (std::int32_t k = 0; k < f.ring_count; ++k) {
     const PolyhedronData::Edge& edge = data.edges[at(data.ring_edge[at(f.ring_begin + k)])];
-    const int first = edge.face[0] == face ? 0 : 1;
-    corners.add(transform(X_WB, data.vertices[at(edge.vertex[first])].p));
+    const int first = edge.face[0] == placed.face ? 0 : 1;
+    corners.add(transform(placed.X_WB, data.vertices[at(edge.vertex[first])].p));
   }
-  return corners;
 }
 
-/// The part of a polygon on the inner side of a plane.
-Corners clipped(const Corners& polygon, const Vector3& inward, double offset) {
-  Corners kept;
+/// Cuts off what of a polygon is on the outer side of a plane. @param kept written if there is
+/// some.
+/// @returns whether there is.
+bool clip(const Corners& polygon, const Vector3& inward, double offset, Corners& kept) {
+  std::array<double, kMaxCorners> inside;  // m
+  bool holds_all = true;
   for (int i = 0; i < polygon.count; ++i) {
+    inside[at(i)] = dot(inward, polygon[i]) - offset;
+    holds_all = holds_all && inside[at(i)] >= 0.0;
+  }
+  if (holds_all) return false;
+  kept.count = 0;
+  for (int i = 0; i < polygon.count; ++i) {
+    const int next = i + 1 < polygon.count ? i + 1 : 0;
     const Vector3& p = polygon[i];
-    const Vector3& q = polygon[i + 1 < polygon.count ? i + 1 : 0];
-    const double p_in = dot(inward, p) - offset;
-    const double q_in = dot(inward, q) - offset;
+    const double p_in = inside[at(i)];
+    const double q_in = inside[at(next)];
     if (p_in >= 0.0) kept.add(p);
     if ((p_in > 0.0 && q_in < 0.0) || (p_in < 0.0 && q_in > 0.0)) {
-      kept.add(p + (p_in / (p_in - q_in)) * (q - p));
+      kept.add(p + (p_in / (p_in - q_in)) * (polygon[next] - p));
     }
   }
-  return kept;
+  return true;
 }
 
 /// The eight of more points that lie farthest in eight directions of the plane across n.
-void reduce(ContactManifold& manifold, const ContactPoint* points, int count) {
+void reduce(ContactManifold& manifold, const Corners& points, const double* gaps) {
   const Vector3& n = manifold.nhat_AB_W;
   const Vector3 axis = std::abs(n.x()) < 0.6 ? Vector3(1.0, 0.0, 0.0) : Vector3(0.0, 1.0, 0.0);
   Vector3 t1 = cross(n, axis);
@@ -107,12 +114,12 @@ void reduce(ContactManifold& manifold, const ContactPoint* points, int count) {
   for (int k = 0; k < 8; ++k) {
     const Vector3 direction = cosines[k] * t1 + cosines[(k + 6) % 8] * t2;
     int best = 0;
-    for (int i = 1; i < count; ++i) {
-      if (dot(points[i].p_WC, direction) > dot(points[best].p_WC, direction)) best = i;
+    for (int i = 1; i < points.count; ++i) {
+      if (dot(points[i], direction) > dot(points[best], direction)) best = i;
     }
     if (taken[static_cast<std::size_t>(best)]) continue;
     taken[static_cast<std::size_t>(best)] = true;
-    manifold.points[static_cast<std::size_t>(manifold.count++)] = points[best];
+    manifold.points[static_cast<std::size_t>(manifold.count++)] = {points[best], gaps[best]};
   }
 }
 
@@ -127,48 +134,46 @@ bool isFlatCorner(const Corners& polygon, int i) {
 }
 
 /// Clips the face of `against` that looks against a face of `on` to the prism over that.
+/// @param normal outward, of the face of `on`, in W.
 /// @returns false if nothing of it is within the band.
-bool faceManifold(const PlacedBody& on, int face, const PlacedBody& against,
+bool faceManifold(const PlacedFace& on, const Vector3& normal, const PlacedFace& against,
                   ContactManifold& manifold, double band) {
-  const ConvexPolyhedron& reference = on.body;
   const Pose& X_WR = on.X_WB;
-  const ConvexPolyhedron& other = against.body;
-  const Pose& X_WO = against.X_WB;
-  const PolyhedronData& data = reference.data();
-  const PolyhedronData::Face& f = data.faces[at(face)];
-  const Vector3 normal = times(X_WR.R_AB, f.normal);
+  const PolyhedronData& data = on.body.data();
+  const PolyhedronData::Face& f = data.faces[at(on.face)];
   const double height = f.offset + dot(normal, X_WR.p_AB);
-  double alignment = 0.0;
-  const int incident = faceAlong(other, X_WO, -normal, alignment);
-  Corners polygon = cornersOf(other, X_WO, incident);
-  for (std::int32_t k = 0; k < f.ring_count && polygon.count > 0; ++k) {
+  Corners buffers[2];
+  int now = 0;
+  addCorners(against, buffers[now]);
+  for (std::int32_t k = 0; k < f.ring_count && buffers[now].count > 0; ++k) {
     const PolyhedronData::RingPlane& side = data.ring[at(f.ring_begin + k)];
     const Vector3 inward = times(X_WR.R_AB, side.inward);
-    polygon = clipped(polygon, inward, side.offset + dot(inward, X_WR.p_AB));
+    const double offset = side.offset + dot(inward, X_WR.p_AB);
+    if (clip(buffers[now], inward, offset, buffers[1 - now])) now = 1 - now;
   }
-  const double same = kSamePoint * std::min(data.radius, other.data().radius);
-  std::array<ContactPoint, kMaxCorners> points;
-  int count = 0;
+  const Corners& polygon = buffers[now];
+  const double same = kSamePoint * std::min(data.radius, against.body.data().radius);
+  Corners points;
+  std::array<double, kMaxCorners> gaps;  // m
   for (int i = 0; i < polygon.count; ++i) {
     if (isFlatCorner(polygon, i)) continue;
     const double gap = dot(normal, polygon[i]) - height;
     if (gap > band) continue;
     const Vector3 p_WC = polygon[i] - (0.5 * gap) * normal;
-    const auto is_same = [&](const ContactPoint& known) {
-      return squaredNorm(known.p_WC - p_WC) < same * same;
+    const auto is_same = [&](const Vector3& known) {
+      return squaredNorm(known - p_WC) < same * same;
     };
-    if (std::any_of(points.begin(), points.begin() + count, is_same)) continue;
-    points[static_cast<std::size_t>(count++)] = {p_WC, gap};
+    if (std::any_of(points.points.begin(), points.points.begin() + points.count, is_same)) continue;
+    gaps[at(points.count)] = gap;
+    points.add(p_WC);
   }
-  if (count == 0) return false;
-  if (count > ContactManifold::kMaxPoints) {
-    reduce(manifold, points.data(), count);
+  if (points.count == 0) return false;
+  if (points.count > ContactManifold::kMaxPoints) {
+    reduce(manifold, points, gaps.data());
     return true;
   }
-  for (int i = 0; i < count; ++i) {
-    manifold.points[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(i)];
-  }
-  manifold.count = count;
+  for (int i = 0; i < points.count; ++i) manifold.points[at(i)] = {points[i], gaps[at(i)]};
+  manifold.count = points.count;
   return true;
 }
 
@@ -251,15 +256,20 @@ ContactManifold contactManifold(const ConvexPolyhedron& A, const Pose& X_WA,
   const int face_A = faceAlong(A, X_WA, closest.nhat_AB_W, along_A);
   const int face_B = faceAlong(B, X_WB, -closest.nhat_AB_W, along_B);
   if (along_A >= aligned && along_A >= along_B) {
-    manifold.nhat_AB_W = times(X_WA.R_AB, A.face(face_A).normal);
-    if (faceManifold({A, X_WA}, face_A, {B, X_WB}, manifold, band)) {
+    const Vector3 normal = times(X_WA.R_AB, A.face(face_A).normal);
+    manifold.nhat_AB_W = normal;
+    const int against = normal == closest.nhat_AB_W ? face_B : faceAlong(B, X_WB, -normal, along_B);
+    if (faceManifold({A, X_WA, face_A}, normal, {B, X_WB, against}, manifold, band)) {
       addClosest(closest, manifold);
       manifold.of_face = true;
       return manifold;
     }
   } else if (along_B >= aligned) {
-    manifold.nhat_AB_W = -times(X_WB.R_AB, B.face(face_B).normal);
-    if (faceManifold({B, X_WB}, face_B, {A, X_WA}, manifold, band)) {
+    const Vector3 normal = times(X_WB.R_AB, B.face(face_B).normal);
+    manifold.nhat_AB_W = -normal;
+    const int against =
+        -normal == closest.nhat_AB_W ? face_A : faceAlong(A, X_WA, -normal, along_A);
+    if (faceManifold({B, X_WB, face_B}, normal, {A, X_WA, against}, manifold, band)) {
       addClosest(closest, manifold);
       manifold.of_face = true;
       return manifold;

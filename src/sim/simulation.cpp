@@ -272,7 +272,7 @@ void Simulation::takeResult() {
   std::size_t body = 0;
   for (BodyState& state : result_.states) {
     const bool is_sound = std::visit([](auto& moved) { return settle(moved); }, state);
-    if (!is_sound || (bodies_meet && !isInReach(state))) failAsDiverged(body);
+    if (!is_sound) failAsDiverged(body);
     ++body;
   }
   state_.bodies.swap(result_.states);

@@ -163,9 +163,25 @@ void checkTolerance(const ConfigReader& reader, const World& world) {
                                        kLeastTolerance * size, kLeastTolerance));
 }
 
+void checkMasses(const ConfigReader& reader, const World& world) {
+  const std::vector<WorldBody>& bodies = world.scene().bodies();
+  const auto mass_of = [](const WorldBody& body) {
+    return 1.0 / body.model.mobility.inverseMass().x();
+  };
+  const auto [least, most] = std::minmax_element(
+      bodies.begin(), bodies.end(),
+      [&](const WorldBody& a, const WorldBody& b) { return mass_of(a) < mass_of(b); });
+  if (mass_of(*most) <= kMostMassRatio * mass_of(*least)) return;
+  reader.fail(
+      "", fmt::format("{} has {:.3g} kg and {} {:.3g} kg: masses of bodies that can meet "
+                      "must be within a factor of {:.0f}",
+                      least->name, mass_of(*least), most->name, mass_of(*most), kMostMassRatio));
+}
+
 void checkStart(const ConfigReader& reader, const Scenario& scenario) {
   const World world = worldOf(scenario);
   checkTolerance(reader, world);
+  checkMasses(reader, world);
   std::vector<BodyState> states;
   for (const auto* list : {&scenario.vehicles, &scenario.world->bodies}) {
     for (const VehicleScenario& body : *list) {

@@ -9,13 +9,16 @@
 
 namespace hovercraft {
 void Island::begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
-                   const std::vector<BodyState>& states, const std::vector<ContactMemory>& memory) {
+                   const std::vector<BodyState>& states, const std::vector<BodyState>& ends,
+                   const std::vector<ContactMemory>& memory) {
   s_.slots.resize(scene_.bodies().size());
   s_.members.resize(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     IslandMember& member = s_.members[k];
     member.index = bodies[k];
     member.state = states[at(bodies[k])];
+    member.end = ends[at(bodies[k])];
+    member.ends_freely = true;
     member.pose = poseOf(member.state);
     member.travelled = Vector3::Zero();
     s_.slots[at(bodies[k])] = static_cast<std::int32_t>(k + 1);  // 0: what is fixed
@@ -45,13 +48,9 @@ const Pose& Island::poseOfIndex(std::int32_t index) const {
   return s_.members[at(s_.slots[at(index)] - 1)].pose;
 }
 
-StepMotion Island::motionOfIndex(std::int32_t index) const {
-  if (!scene_.isFixed(index)) return s_.members[at(s_.slots[at(index)] - 1)].motion;
-  const Pose& X_WO = poseOfIndex(index);
-  StepMotion still;
-  still.p_WB = X_WO.p_AB;
-  still.q_WB = quaternionFromMatrix(X_WO.R_AB);
-  return still;
+const StepMotion& Island::motionOfIndex(std::int32_t index) const {
+  if (scene_.isFixed(index)) return scene_.fixedMotion(index);
+  return s_.members[at(s_.slots[at(index)] - 1)].motion;
 }
 
 /// The approach that a pair may have and still not bounce, m/s.
@@ -92,7 +91,10 @@ bool Island::repair() {
     if (link.touching) least = std::min(least, link.closest.distance);
   }
   if (least >= (stuck_ ? kFairRestGap : kLeastRestGap) * tolerance) return false;
-  for (IslandMember& member : s_.members) member.end = member.state;
+  for (IslandMember& member : s_.members) {
+    member.end = member.state;
+    member.ends_freely = false;
+  }
   for (int sweep = 0; sweep < kMaxRepairSweeps && repairSweep(); ++sweep) {
   }
   double left = wanted;
@@ -159,8 +161,8 @@ bool Island::firstImpact(double duration, double share, double& time) const {
     if (!(within > 0.0)) continue;
     const std::int32_t a = link.memory.a;
     const std::int32_t b = link.memory.b;
-    const StepMotion motion_a = motionOfIndex(a);
-    const StepMotion motion_b = motionOfIndex(b);
+    const StepMotion& motion_a = motionOfIndex(a);
+    const StepMotion& motion_b = motionOfIndex(b);
     const ImpactSearch search = {time, within, ImpactMethod::kAdvance};
     if (isClear(scene_.hullOf(a), motion_a, scene_.hullOf(b), motion_b, link.closest, search)) {
       continue;
@@ -186,12 +188,13 @@ double Island::advance(double now) {
     for (IslandMember& member : s_.members) {
       const Mobility& mobility = scene_.mobilityOf(member.index);
       member.end = moved(member, now, to, member.contact);
+      member.ends_freely = false;
       StepMotion& motion = member.motion;
       const Vector3& p_end = positionOf(member.end);
       motion = motionBetween(member.pose.p_AB, orientationOf(member.state), p_end,
                              orientationOf(member.end), duration);
       motion.a_WB =
-          (twistOf(member.end, mobility).v_WB - twistOf(member.state, mobility).v_WB) / duration;
+          (velocityOf(member.end, mobility) - velocityOf(member.state, mobility)) / duration;
       motion.v_WB -= (0.5 * duration) * motion.a_WB;
     }
     double time = duration;
@@ -209,6 +212,17 @@ double Island::advance(double now) {
   return now;
 }
 
+bool Island::isTouched() const {
+  return std::any_of(s_.links.begin(), s_.links.end(),
+                     [](const IslandLink& link) { return link.touching; });
+}
+
+/// Nothing touches: no forces.
+void Island::leave() {
+  for (IslandMember& member : s_.members) member.contact = Wrench();
+  for (IslandLink& link : s_.links) link.memory.count = 0;
+}
+
 bool Island::run() {
   const double h = scene_.rules().step;
   const int bound = kMaxEvents + kMaxEventsPerPair * static_cast<int>(s_.links.size());
@@ -221,8 +235,13 @@ bool Island::run() {
     look(h - now);
     for (IslandLink& link : s_.links) link.found = link.closest.distance;
     if (repair()) look(h - now);
-    strike(now);
-    press(now);
+    if (isTouched()) {
+      takeTwists();
+      strike(now);
+      press(now);
+    } else {
+      leave();
+    }
     const double then = advance(now);
     stuck_ = !(then > now);
     now = then;

@@ -25,45 +25,64 @@ void pushBoth(const IslandLink& link, const Vector3& force, const Vector3& p_WC,
   }
 }
 
-using UsedPoints = std::array<bool, ContactManifold::kMaxPoints>;
-
-/// The force that was remembered nearest to a point, N on B; each is taken once.
-Vector3 rememberedForce(const ContactMemory& memory, const Pose& X_WA, const Vector3& p_WC,
-                        double near, UsedPoints& used) {
-  double closest = near * near;
-  int matched = -1;
-  for (int k = 0; k < memory.count; ++k) {
-    const auto slot = static_cast<std::size_t>(k);
-    const double away = squaredNorm(transform(X_WA, memory.p_AC[slot]) - p_WC);
-    if (used[slot] || away >= closest) continue;
-    closest = away;
-    matched = k;
+/// The forces of the last step, as the solve of this one takes them up.
+class RememberedForces {
+ public:
+  /// @param near m, how far from a point of this step one of the last may be.
+  RememberedForces(const ContactMemory& memory, const Pose& X_WA, double near)
+      : memory_(memory), near_(near) {
+    for (int k = 0; k < memory.count; ++k) points_[at(k)] = transform(X_WA, memory.p_AC[at(k)]);
   }
-  if (matched < 0) return Vector3::Zero();
-  used[static_cast<std::size_t>(matched)] = true;
-  return memory.force_B_W[static_cast<std::size_t>(matched)];
-}
+
+  /// The force that was remembered nearest to a point, N on B; each is taken once.
+  Vector3 take(const Vector3& p_WC) {
+    double closest = near_ * near_;
+    int matched = -1;
+    for (int k = 0; k < memory_.count; ++k) {
+      if (used_[at(k)]) continue;
+      const double away = squaredNorm(points_[at(k)] - p_WC);
+      if (away >= closest) continue;
+      closest = away;
+      matched = k;
+    }
+    if (matched < 0) return Vector3::Zero();
+    used_[at(matched)] = true;
+    return memory_.force_B_W[at(matched)];
+  }
+
+ private:
+  const ContactMemory& memory_;
+  double near_;
+  std::array<Vector3, ContactManifold::kMaxPoints> points_;  // m, in W
+  std::array<bool, ContactManifold::kMaxPoints> used_{};
+};
 
 }  // namespace
 
-Twist Island::twistNow(const IslandMember& member) const {
-  return scene_.twistAt(member.index, member.state, inputs_[at(member.index)], now_);
+/// Velocities of all bodies as they are now.
+void Island::takeTwists() {
+  for (IslandMember& member : s_.members) {
+    member.twist = scene_.twistAt(member.index, member.state, inputs_[at(member.index)], now_);
+  }
 }
 
-Twist Island::twistAtEnd(const IslandMember& member) const {
-  return scene_.twistAt(member.index, member.end, inputs_[at(member.index)], scene_.rules().step);
+/// Where a body would be at the end of the step without contact. @param from s, where it begins.
+void Island::endFreely(IslandMember& member, double from) {
+  const double h = scene_.rules().step;
+  if (!member.ends_freely) member.end = moved(member, from, h, Wrench());
+  member.twist_end = scene_.twistAt(member.index, member.end, inputs_[at(member.index)], h);
 }
 
 Vector3 Island::velocityNow(std::int32_t slot, const Vector3& p_WC) const {
   if (slot == 0) return Vector3::Zero();
   const IslandMember& member = s_.members[at(slot - 1)];
-  return velocityOfPoint(twistNow(member), p_WC, member.pose.p_AB);
+  return velocityOfPoint(member.twist, p_WC, member.pose.p_AB);
 }
 
 Vector3 Island::velocityAtEnd(std::int32_t slot, const Vector3& p_WC) const {
   if (slot == 0) return Vector3::Zero();
   const IslandMember& member = s_.members[at(slot - 1)];
-  return velocityOfPoint(twistAtEnd(member), p_WC, member.pose.p_AB);
+  return velocityOfPoint(member.twist_end, p_WC, member.pose.p_AB);
 }
 
 /// Acceleration of a body's point towards the axis about which the body turns, m/s²: what the twist
@@ -71,7 +90,7 @@ Vector3 Island::velocityAtEnd(std::int32_t slot, const Vector3& p_WC) const {
 Vector3 Island::centripetalNow(std::int32_t slot, const Vector3& p_WC) const {
   if (slot == 0) return Vector3::Zero();
   const IslandMember& member = s_.members[at(slot - 1)];
-  const Vector3 w = twistNow(member).w_WB;
+  const Vector3& w = member.twist.w_WB;
   return cross(w, cross(w, p_WC - member.pose.p_AB));
 }
 
@@ -83,7 +102,7 @@ void Island::turn(IslandLink& link, bool at_end) {
     Twist twist{Vector3::Zero(), Vector3::Zero()};
     if (slot != 0) {
       const IslandMember& member = s_.members[at(slot - 1)];
-      twist = at_end ? twistAtEnd(member) : twistNow(member);
+      twist = at_end ? member.twist_end : member.twist;
     }
     return {scene_.hullOf(index), poseOfIndex(index), twist};
   };
@@ -100,7 +119,7 @@ void Island::addBodies(bool at_end) {
     const Mobility& mobility = scene_.mobilityOf(member.index);
     s_.solver.add({member.pose.p_AB, mobility.inverseMass(),
                    mobility.inverseInertia(member.pose.R_AB),
-                   at_end ? twistAtEnd(member) : twistNow(member)});
+                   at_end ? member.twist_end : member.twist});
   }
 }
 
@@ -121,9 +140,8 @@ bool Island::addRestPoints(IslandLink& link, double left) {
   if (link.slot_b != 0) {
     lag += dot(link.manifold.nhat_AB_W, lagOf(s_.members[at(link.slot_b - 1)], scene_, left));
   }
-  UsedPoints used{};
-  const Pose& X_WA = poseOfIndex(link.memory.a);
   const double near = kKnownPoint * scene_.hullOf(link.memory.a).data().radius;
+  RememberedForces forces(link.memory, poseOfIndex(link.memory.a), near);
   for (int i = 0; i < link.manifold.count; ++i) {
     const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
     const Vector3 v =
@@ -151,7 +169,7 @@ bool Island::addRestPoints(IslandLink& link, double left) {
     asked.target -= left * dot(link.manifold.nhat_AB_W, bend);
     asked.friction =
         link.material.stick ? std::numeric_limits<double>::infinity() : link.material.friction;
-    asked.start = left * rememberedForce(link.memory, X_WA, contact.p_WC, near, used);
+    asked.start = left * forces.take(contact.p_WC);
     s_.solver.add(asked);
     ++link.point_count;
   }
@@ -161,16 +179,9 @@ bool Island::addRestPoints(IslandLink& link, double left) {
 /// The constant forces that hold touching bodies apart over the rest of the step.
 void Island::press(double now) {
   const double left = scene_.rules().step - now;
-  bool any_touch = false;
-  for (const IslandLink& link : s_.links) any_touch = any_touch || link.touching;
   for (IslandMember& member : s_.members) {
     member.contact = Wrench();
-    if (!any_touch) continue;
-    member.end = moved(member, now, scene_.rules().step, Wrench());
-  }
-  if (!any_touch) {
-    for (IslandLink& link : s_.links) link.memory.count = 0;
-    return;
+    endFreely(member, now);
   }
   addBodies(true);
   bool any = false;

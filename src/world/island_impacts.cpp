@@ -54,6 +54,7 @@ void applyToBoth(const ImpactPoint& point, const Scene& scene, std::vector<Islan
     if (slots[side] == 0) continue;
     IslandMember& member = members[at(slots[side] - 1)];
     const Vector3 impulse = (side == 0 ? -1.0 : 1.0) * point.impulse;
+    member.ends_freely = false;
     applyImpulse(member.state, scene.mobilityOf(member.index), impulse, point.p_WC);
   }
 }
@@ -61,12 +62,28 @@ void applyToBoth(const ImpactPoint& point, const Scene& scene, std::vector<Islan
 
 /// The impact of all points that touch now. @param now s, from the start of the step.
 void Island::strike(double now) {
+  for (IslandLink& link : s_.links) {
+    if (link.touching) turn(link, false);
+  }
+  if (!isStruck()) return;
+  addImpactPoints();
+  addBodies(false);
+  slowBounces();
+  s_.impact.resolve(s_.solver, s_.impact_points, slowApproach());
+  for (const ImpactPoint& point : s_.impact_points) {
+    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, scene_, s_.members);
+  }
+  takeTwists();
+  report(now);
+}
+
+/// All points that touch now.
+void Island::addImpactPoints() {
   s_.impact_points.clear();
   for (IslandLink& link : s_.links) {
     link.first_point = s_.impact_points.size();
     link.point_count = 0;
     if (!link.touching) continue;
-    turn(link, false);
     for (int i = 0; i < link.manifold.count; ++i) {
       const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
       if (contact.gap > scene_.rules().tolerance) continue;
@@ -81,15 +98,6 @@ void Island::strike(double now) {
       ++link.point_count;
     }
   }
-  if (s_.impact_points.empty()) return;
-  addBodies(false);
-  if (!isStruck()) return;
-  slowBounces();
-  s_.impact.resolve(s_.solver, s_.impact_points, slowApproach());
-  for (const ImpactPoint& point : s_.impact_points) {
-    if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, scene_, s_.members);
-  }
-  report(now);
 }
 
 /// What a step without contact does to the points of a pair.
@@ -116,9 +124,7 @@ void Island::slowBounces() {
     return link.point_count > 0 && e > 0.0 && e < 1.0;
   });
   if (!any) return;
-  for (IslandMember& member : s_.members) {
-    member.end = moved(member, 0.0, scene_.rules().step, Wrench());
-  }
+  for (IslandMember& member : s_.members) endFreely(member, 0.0);
   for (const IslandLink& link : s_.links) {
     const double e = link.material.restitution;
     if (!(e > 0.0 && e < 1.0)) continue;
@@ -144,17 +150,18 @@ double Island::slowApproach() const {
 
 /// Whether some pair that touches approaches faster than its resting contact stops by itself.
 bool Island::isStruck() const {
-  for (const IslandLink& link : s_.links) {
-    const double bound = link.memory.resting ? slowApproach() : kStillSpeed;
-    for (std::size_t k = link.first_point;
-         k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
-      const ImpactPoint& point = s_.impact_points[k];
-      const ContactBody& A = s_.solver.bodies()[at(point.a)];
-      const ContactBody& B = s_.solver.bodies()[at(point.b)];
-      const Vector3 v = velocityOfPoint(B.twist, point.p_WC, B.p_WB) -
-                        velocityOfPoint(A.twist, point.p_WC, A.p_WB);
-      if (dot(point.nhat_AB_W, v) < -bound) return true;
-    }
+  return std::any_of(s_.links.begin(), s_.links.end(),
+                     [this](const IslandLink& link) { return link.touching && isStruck(link); });
+}
+
+bool Island::isStruck(const IslandLink& link) const {
+  const double bound = link.memory.resting ? slowApproach() : kStillSpeed;
+  for (int i = 0; i < link.manifold.count; ++i) {
+    const ContactPoint& contact = link.manifold.points[at(i)];
+    if (contact.gap > scene_.rules().tolerance) continue;
+    const Vector3 v =
+        velocityNow(link.slot_b, contact.p_WC) - velocityNow(link.slot_a, contact.p_WC);
+    if (dot(link.manifold.nhat_AB_W, v) < -bound) return true;
   }
   return false;
 }

@@ -6,6 +6,7 @@
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
 namespace {
@@ -73,6 +74,10 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
   for (const WorldObstacle& obstacle : obstacles_) {
     obstacle_boxes_.push_back(boundsOf(obstacle.hull, obstacle.X_WO));
     obstacle_sides_.push_back(sidesOf(obstacle));
+    StepMotion still;
+    still.p_WB = obstacle.X_WO.p_AB;
+    still.q_WB = quaternionFromMatrix(obstacle.X_WO.R_AB);
+    obstacle_motions_.push_back(still);
   }
 }
 
@@ -156,22 +161,47 @@ BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInput
       state);
 }
 
-Vector3 Scene::travelOf(std::size_t body, const BodyState& from, const BodyState& to,
-                        double h) const {
-  const Extent& extent = extents_[body];
+inline Scene::Course Scene::courseOf(std::size_t body, const BodyState& from, const BodyState& to,
+                                     double h) const {
   const Mobility& mobility = bodies_[body].model.mobility;
   return std::visit(
-      [&](const auto& a) {
-        const auto& b = std::get<std::decay_t<decltype(a)>>(to);
+      [&](const auto& a) -> Course {
+        const auto& b = *std::get_if<std::decay_t<decltype(a)>>(&to);
         const Vector3 bend = h * mobility.velocity(b.momentum_W - a.momentum_W).cwiseAbs();
-        const double spin =
-            extent.spin_per_L *
-            (extent.rotors + std::sqrt(std::max(squaredNorm(a.angular_momentum_W),
-                                                squaredNorm(b.angular_momentum_W))));
-        return Vector3((b.p_WB - a.p_WB).cwiseAbs() + bend +
-                       (spin * h * extent.radius) * extent.turns);
+        return {(b.p_WB - a.p_WB).cwiseAbs() + bend,
+                std::max(squaredNorm(a.angular_momentum_W), squaredNorm(b.angular_momentum_W))};
       },
       from);
+}
+
+Vector3 Scene::travelOf(std::size_t body, const Course& course, double h) const {
+  const Extent& extent = extents_[body];
+  const double spin = extent.spin_per_L * (extent.rotors + std::sqrt(course.spin));
+  return course.straight + (spin * h * extent.radius) * extent.turns;
+}
+
+Vector3 Scene::travelOf(std::size_t body, const BodyState& from, const BodyState& to,
+                        double h) const {
+  return travelOf(body, courseOf(body, from, to, h), h);
+}
+
+Scene::TravelBound Scene::travelBoundOf(std::size_t body, const BodyState& from,
+                                        const BodyState& to, double h) const {
+  const Extent& extent = extents_[body];
+  Course course = courseOf(body, from, to, h);
+  const double still = extent.spin_per_L * h * extent.radius;
+  const double least = still > 0.0 ? rules_.tolerance / still : 0.0;
+  const double spin = kTravelRoom * std::sqrt(course.spin) + least;
+  course.straight = kTravelRoom * course.straight + Vector3::Constant(rules_.tolerance);
+  course.spin = spin * spin;
+  return {course.straight, course.spin, travelOf(body, course, h)};
+}
+
+bool Scene::holds(const TravelBound& bound, std::size_t body, const BodyState& from,
+                  const BodyState& to, double h) const {
+  const Course course = courseOf(body, from, to, h);
+  return course.straight.x() <= bound.straight.x() && course.straight.y() <= bound.straight.y() &&
+         course.straight.z() <= bound.straight.z() && course.spin <= bound.spin;
 }
 
 AxisAlignedBox Scene::boxOf(std::size_t body, const Pose& pose, const Vector3& margin) const {
@@ -181,17 +211,51 @@ AxisAlignedBox Scene::boxOf(std::size_t body, const Pose& pose, const Vector3& m
   return {center - half, center + half};
 }
 
-bool Scene::staysOutside(std::size_t body, const Pose& pose, const Vector3& travel,
-                         std::int32_t obstacle) const {
-  const Extent& extent = extents_[body];
+/// By how much the body stays on the outer side, m.
+inline double Scene::beyond(const Extent& extent, const Pose& pose, const Vector3& travel,
+                            const Side& side) const {
   const Vector3 center = transform(pose, extent.center_B);
+  const Vector3 n_B = transposeTimes(pose.R_AB, side.normal).cwiseAbs();
+  const double reach = dot(n_B, extent.half_B) + dot(Vector3(side.normal.cwiseAbs()), travel) +
+                       kLostContact * rules_.tolerance;
+  return dot(side.normal, center) - side.offset - reach;
+}
+
+inline bool Scene::isOutside(const Extent& extent, const Pose& pose, const Vector3& travel,
+                             const Side& side) const {
+  return beyond(extent, pose, travel, side) > 0.0;
+}
+
+Scene::Separation Scene::separationOf(std::size_t body, const Pose& pose, const Vector3& travel,
+                                      std::int32_t obstacle, int side) const {
+  Separation result;
   const auto& sides = obstacle_sides_[static_cast<std::size_t>(obstacle) - bodies_.size()];
-  return std::any_of(sides.begin(), sides.end(), [&](const Side& side) {
-    const Vector3 n_B = transposeTimes(pose.R_AB, side.normal).cwiseAbs();
-    const double reach = dot(n_B, extent.half_B) + dot(Vector3(side.normal.cwiseAbs()), travel) +
-                         kLostContact * rules_.tolerance;
-    return dot(side.normal, center) - side.offset > reach;
-  });
+  if (sides.empty()) return result;
+  const Side& plane = sides[at(side)];
+  const Extent& extent = extents_[body];
+  const double size = norm(extent.center_B) + norm(extent.half_B);
+  result.normal = plane.normal;
+  result.gap = beyond(extent, pose, travel, plane);
+  result.per_turn = size * dot(Vector3(plane.normal.cwiseAbs()), extent.turns);
+  result.size = size + std::abs(plane.offset) + travel.maxCoeff();
+  return result;
+}
+
+bool Scene::staysOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+                         std::int32_t obstacle, int side) const {
+  const auto& sides = obstacle_sides_[static_cast<std::size_t>(obstacle) - bodies_.size()];
+  return !sides.empty() && isOutside(extents_[body], pose, travel, sides[at(side)]);
+}
+
+bool Scene::findSideOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+                            std::int32_t obstacle, int& side) const {
+  const auto& sides = obstacle_sides_[static_cast<std::size_t>(obstacle) - bodies_.size()];
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (!isOutside(extents_[body], pose, travel, sides[i])) continue;
+    side = static_cast<int>(i);
+    return true;
+  }
+  return false;
 }
 
 ClosestFeatures Scene::closestOf(const std::vector<BodyState>& states,

@@ -31,7 +31,10 @@ double gapOf(const AxisAlignedBox& a, const AxisAlignedBox& b) {
 
 World::World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
     : scene_(std::move(rules), std::move(bodies), std::move(obstacles)),
-      extents_(scene_.bodies().size()) {}
+      extents_(scene_.bodies().size()),
+      poses_(extents_.size()),
+      boxes_(extents_.size()),
+      has_box_(extents_.size()) {}
 
 /// How far from its centre of mass a body can be near something in this step, m.
 Vector3 World::reachOf(std::size_t body) const {
@@ -75,45 +78,69 @@ bool World::findNeighbours(const std::vector<BodyState>& states) {
     const Vector3& p = positionOf(states[i]);
     inside = holds(extents_[i].roomy, {p - reach, p + reach});
   }
-  if (inside) return !neighbours_.empty();
+  if (!inside) collectNeighbours(states);
+  return !neighbours_.empty();
+}
+
+void World::collectNeighbours(const std::vector<BodyState>& states) {
+  const std::size_t count = scene_.bodies().size();
   neighbours_.clear();
   makeRoom(states);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
       if (!extents_[i].roomy.overlaps(extents_[j].roomy)) continue;
-      neighbours_.emplace_back(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j));
+      neighbours_.push_back({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}});
     }
     for (std::size_t j = 0; j < scene_.obstacles().size(); ++j) {
       if (!extents_[i].roomy.overlaps(scene_.fixedBox(j))) continue;
-      neighbours_.emplace_back(static_cast<std::int32_t>(i), static_cast<std::int32_t>(count + j));
+      neighbours_.push_back({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(count + j)}});
+      Neighbour& known = neighbours_.back();
+      (void)scene_.findSideOutside(i, poseOf(states[i]), extents_[i].travel, known.pair.second,
+                                   known.side);
     }
   }
   knows_neighbours_ = true;
-  return !neighbours_.empty();
+  has_clearances_ = false;
 }
 
 /// The pairs whose boxes, as far as their bodies can travel, overlap.
 void World::findNearPairs(const std::vector<BodyState>& states) {
   near_.clear();
   if (!findNeighbours(states)) return;
-  boxes_.resize(scene_.bodies().size());
-  // A resting contact that is not over is near.
-  const Vector3 touch = Vector3::Constant(kLostContact * scene_.rules().tolerance);
-  for (std::size_t i = 0; i < scene_.bodies().size(); ++i) {
-    boxes_[i] = scene_.boxOf(i, poseOf(states[i]), extents_[i].travel + touch);
+  takePoses(states);
+  for (Neighbour& neighbour : neighbours_) {
+    if (!areApart(neighbour)) near_.push_back(neighbour.pair);
   }
-  for (const ScenePair& pair : neighbours_) {
-    const auto a = static_cast<std::size_t>(pair.first);
-    const auto b = static_cast<std::size_t>(pair.second);
-    const bool is_fixed = scene_.isFixed(pair.second);
-    const AxisAlignedBox& other =
-        is_fixed ? scene_.fixedBox(b - scene_.bodies().size()) : boxes_[b];
-    if (!boxes_[a].overlaps(other)) continue;
-    if (is_fixed && scene_.staysOutside(a, poseOf(states[a]), extents_[a].travel, pair.second)) {
-      continue;
-    }
-    near_.push_back(pair);
+}
+
+void World::takePoses(const std::vector<BodyState>& states) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    poses_[i] = poseOf(states[i]);
+    has_box_[i] = 0;
   }
+}
+
+/// A box around where a body can be in this step.
+const AxisAlignedBox& World::boxOf(std::size_t body) {
+  if (has_box_[body] == 0) {
+    // A resting contact that is not over is near.
+    const Vector3 touch = Vector3::Constant(kLostContact * scene_.rules().tolerance);
+    boxes_[body] = scene_.boxOf(body, poses_[body], extents_[body].travel + touch);
+    has_box_[body] = 1;
+  }
+  return boxes_[body];
+}
+
+/// Whether the two cannot come near each other in this step. The side of an obstacle is asked
+/// first: a craft that hovers over a floor is over it in each step.
+bool World::areApart(Neighbour& neighbour) {
+  const auto a = static_cast<std::size_t>(neighbour.pair.first);
+  const auto b = static_cast<std::size_t>(neighbour.pair.second);
+  if (!scene_.isFixed(neighbour.pair.second)) return !boxOf(a).overlaps(boxOf(b));
+  const std::int32_t obstacle = neighbour.pair.second;
+  return scene_.staysOutside(a, poses_[a], extents_[a].travel, obstacle, neighbour.side) ||
+         !boxOf(a).overlaps(scene_.fixedBox(b - scene_.bodies().size())) ||
+         scene_.findSideOutside(a, poses_[a], extents_[a].travel, obstacle, neighbour.side);
 }
 
 /// Bodies that are near each other, directly or through others, get the least index among them.
@@ -171,11 +198,24 @@ bool World::stepGroups(const std::vector<StepInputs>& inputs, const std::vector<
     const auto group = static_cast<std::int32_t>(first);
     if (group_[first] != group || !listGroup(group)) continue;
     Island island(scene_, inputs, scratch_, result.records);
-    island.begin(group_bodies_, group_pairs_, states, memory);
+    island.begin(group_bodies_, group_pairs_, states, result.states, memory);
     if (!island.run()) ++cut_off_;
     enough = takeIsland(result) && enough;
   }
   return enough;
+}
+
+/// How far each body can travel in this step. @returns the first that would come out of reach;
+/// kNone.
+int World::takeTravel(const std::vector<BodyState>& states, const std::vector<BodyState>& ends) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    extents_[i].travel =
+        kTravelReserve * scene_.travelOf(i, states[i], ends[i], scene_.rules().step);
+    if (!isInReach(ends[i]) || !(extents_[i].travel.maxCoeff() <= kFarthest)) {
+      return static_cast<int>(i);
+    }
+  }
+  return kNone;
 }
 
 int World::step(const std::vector<StepInputs>& inputs, const std::vector<BodyState>& states,
@@ -184,23 +224,23 @@ int World::step(const std::vector<StepInputs>& inputs, const std::vector<BodySta
   result.memory.clear();
   result.records.clear();
   scene_.moveAll(states, inputs, result.states);
-  if (!scene_.rules().bodies_meet) return kNone;
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    extents_[i].travel =
-        kTravelReserve * scene_.travelOf(i, states[i], result.states[i], scene_.rules().step);
-    if (!isInReach(result.states[i]) || !(extents_[i].travel.maxCoeff() <= kFarthest)) {
-      return static_cast<int>(i);
-    }
-  }
+  if (!scene_.rules().bodies_meet || (was_clear_ && isClear(states, result.states))) return kNone;
+  const int lost = takeTravel(states, result.states);
+  if (lost != kNone) return lost;
   bool done = false;
   for (int attempt = 0; attempt < kMaxRestarts && !done; ++attempt) {
+    if (attempt > 0) scene_.moveAll(states, inputs, result.states);
     findNearPairs(states);
     result.memory.clear();
     result.records.clear();
     cut_off_ = 0;
-    done = near_.empty() || stepGroups(inputs, states, memory, result);
+    was_clear_ = near_.empty();
+    done = was_clear_ || stepGroups(inputs, states, memory, result);
   }
   stalls_ += cut_off_ + (done ? 0 : 1);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (!isInReach(result.states[i])) return static_cast<int>(i);
+  }
   std::sort(result.memory.begin(), result.memory.end(),
             [](const ContactMemory& x, const ContactMemory& y) {
               return x.a < y.a || (x.a == y.a && x.b < y.b);

@@ -144,6 +144,23 @@ TEST(WorldScenario, WhatIsWrongIsSaidOnOneLine) {
             std::string::npos);
 }
 
+// The craft has 2 kg, the crate 1 kg: the drum may have 0.2 g to 10 t.
+TEST(WorldScenario, MassesOfBodiesThatMeetAreWithinAFactorOfTenThousand) {
+  const auto with_drum = [](const std::string& mass) {
+    return with(worldText(), "drum: {mass: 1,", "drum: {mass: " + mass + ",");
+  };
+  EXPECT_EQ(parsed(with_drum("2.001e-4")).world->bodies.size(), 2U);
+  EXPECT_EQ(parsed(with_drum("9999")).world->bodies.size(), 2U);
+  const std::string light = complaintAbout(with_drum("1.999e-4"));
+  EXPECT_NE(
+      light.find(": drum has 0.0002 kg and craft 2 kg: masses of bodies that can meet must be "
+                 "within a factor of 10000"),
+      std::string::npos)
+      << light;
+  const std::string heavy = complaintAbout(with_drum("10001"));
+  EXPECT_NE(heavy.find(": crate has 1 kg and drum 1e+04 kg: "), std::string::npos) << heavy;
+}
+
 TEST(WorldScenario, ARunGoesOnFromASnapshotAsIfItHadNeverStopped) {
   Simulation whole(parsed(worldText()));
   std::vector<ContactEvent> contacts;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "../support/test_world.h"
@@ -10,6 +12,42 @@ namespace {
 
 using testing::atRest;
 using testing::TestWorld;
+
+bool isSame(const ContactMemory& x, const ContactMemory& y) {
+  return x.a == y.a && x.b == y.b && x.features.a.kind == y.features.a.kind &&
+         x.features.a.index == y.features.a.index && x.features.b.kind == y.features.b.kind &&
+         x.features.b.index == y.features.b.index && x.resting == y.resting && x.count == y.count;
+}
+
+/// Steps a world, and one that knows nothing of the steps before. @returns whether both did the
+/// same, to the bit.
+bool stepsAlike(TestWorld& world, const TestWorld& unused) {
+  TestWorld fresh = unused;
+  fresh.states = world.states;
+  fresh.memory = world.memory;
+  world.step();
+  fresh.step();
+  const auto& x = world.state(0);
+  const auto& y = fresh.state(0);
+  return x.p_WB == y.p_WB && x.momentum_W == y.momentum_W &&
+         x.angular_momentum_W == y.angular_momentum_W && x.orientation.s == y.orientation.s &&
+         x.orientation.v == y.orientation.v && world.memory.size() == fresh.memory.size() &&
+         std::equal(world.memory.begin(), world.memory.end(), fresh.memory.begin(), isSame);
+}
+
+/// A plate over a floor, with a wall far ahead. @param twist of it.
+TestWorld plateOverFloor(bool planar, double height, const Twist& twist) {
+  TestWorld world;
+  world.planar = planar;
+  world.watch = false;
+  world.material() = {0.9, 0.1, false};
+  world.gravity = planar ? Vector3::Zero() : Vector3(0.0, 0.0, -0.2);
+  world.addWall(Vector3(20.0, 20.0, 1.0), Vector3(0.0, 0.0, -0.5));
+  world.addWall(Vector3(1.0, 20.0, 4.0), Vector3(1.5, 0.0, 2.0));
+  world.addBox(5.0, Vector3(0.6, 0.4, 0.12), Vector3(0.0, 0.0, 0.06 + height), twist);
+  world.world();
+  return world;
+}
 
 // 3 mm over a floor: no pair is near, and so nothing is remembered of one.
 TEST(Hovering, OverAFloorNoPairIsNear) {
@@ -26,6 +64,50 @@ TEST(Hovering, OverAFloorNoPairIsNear) {
         EXPECT_TRUE(world.memory.empty()) << planar << " " << speed;
       }
       EXPECT_NEAR(world.state(0).p_WB.x(), 0.1 * speed, 1e-12);
+    }
+  }
+}
+
+// What is known of a craft that was near nothing is used as long as it holds: a plate that sinks,
+// tilts down to one corner, turns or flies on to a wall meets what a world meets that knows
+// nothing.
+TEST(Hovering, WhatIsKnownOfEarlierStepsChangesNothing) {
+  const Twist twists[] = {{Vector3(0.4, 0.1, 0.0), Vector3::Zero()},
+                          {Vector3::Zero(), Vector3(0.05, 0.3, 0.0)},
+                          {Vector3(0.3, 0.0, 0.2), Vector3(0.02, -0.01, 1.5)},
+                          {Vector3(3.0, 0.2, 0.01), Vector3(0.0, 0.0, 0.2)}};
+  std::size_t contacts = 0;
+  for (const bool planar : {true, false}) {
+    for (const double height : {0.003, 0.03}) {
+      for (const Twist& twist : twists) {
+        TestWorld world = plateOverFloor(planar, height, twist);
+        const TestWorld unused = world;
+        std::size_t alone = 0;
+        for (int step = 0; step < 1500; ++step) {
+          ASSERT_TRUE(stepsAlike(world, unused)) << planar << ' ' << height << ' ' << step;
+          if (world.memory.empty()) ++alone;
+        }
+        EXPECT_GT(alone, 100U);
+        contacts += world.records.size();
+      }
+    }
+  }
+  EXPECT_GT(contacts, 10U);
+}
+
+// What was known of a slow body is forgotten when it is fast.
+TEST(Hovering, WhatIsKnownOfASlowBodyIsNotOfAFastOne) {
+  TestWorld world = plateOverFloor(false, 0.003, atRest());
+  const TestWorld unused = world;
+  const auto place = [&world](double height, double speed) {
+    world.states[0] =
+        world.mobility(0).stateOfMotion(Vector3(0.0, 0.0, 0.06 + height), Quaternion(),
+                                        Twist{Vector3(0.0, 0.0, speed), Vector3::Zero()});
+  };
+  for (const double speed : {0.0, -2.0, 2.0, -2.0}) {
+    for (const double height : {0.02, 0.0025, 0.02}) {
+      place(height, speed);
+      ASSERT_TRUE(stepsAlike(world, unused)) << speed << ' ' << height;
     }
   }
 }

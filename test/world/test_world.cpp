@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/sim/state_hash.h"
 
 #include "../support/share.h"
@@ -109,6 +110,23 @@ TEST(World, ElasticBouncesInAPenKeepTheEnergy) {
   const double before = world.energy(0);
   while (world.records.size() < 200U) world.step(100);
   EXPECT_NEAR(world.energy(0) / before, 1.0, 1e-9);
+}
+
+// The largest ratio of masses that a scenario may have: the heavy box comes to rest on the light
+// one, and no step is cut off.
+TEST(World, ABoxFallsOnOneOfATenThousandthOfItsMass) {
+  TestWorld world;
+  world.gravity = Vector3(0.0, 0.0, -9.81);
+  world.rules.integrator = Integrator::kHeun;
+  world.material() = {0.5, 0.5, false};
+  world.addWall(Vector3(20.0, 20.0, 1.0), Vector3(0.0, 0.0, -0.5));
+  world.addBox(1.0 / kMostMassRatio, Vector3::Constant(0.2), Vector3(0.0, 0.0, 0.102), atRest());
+  world.addBox(1.0, Vector3::Constant(0.2), Vector3(0.0, 0.0, 0.304), atRest());
+  world.step(200);
+  EXPECT_EQ(world.world().stalls(), 0);
+  EXPECT_GT(world.least_gap, 0.0);
+  EXPECT_NEAR(world.state(1).p_WB.z(), 0.3, 1e-5);
+  EXPECT_LT(norm(world.twist(1).v_WB), 1e-3);
 }
 
 TEST(World, TheLastBoxOfACradleLeavesWithTheSpeedOfTheFirst) {

@@ -26,6 +26,11 @@ inline Quaternion orientationOf(const BodyState& state) {
   return std::visit([](const auto& body) { return toQuaternion(body.orientation); }, state);
 }
 
+/// Of the centre of mass, m/s, in W: twistOf() without the turn.
+inline Vector3 velocityOf(const BodyState& state, const Mobility& mobility) {
+  return std::visit([&](const auto& body) { return mobility.velocity(body.momentum_W); }, state);
+}
+
 inline Twist twistOf(const BodyState& state, const Mobility& mobility) {
   return std::visit([&](const auto& body) { return mobility.twist(body); }, state);
 }

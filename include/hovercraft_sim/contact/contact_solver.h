@@ -51,7 +51,8 @@ class ContactSolver {
 
   /// Forgets all bodies and points.
   void clear();
-  /// @returns its index.
+  /// One that has no mobility and does not move is fixed, and its twist must stay 0. @returns its
+  /// index.
   std::int32_t add(const ContactBody& body);
   /// Applies its starting impulse. @returns the index of the point.
   std::size_t add(const ContactDemand& point);
@@ -101,12 +102,14 @@ class ContactSolver {
     double target;     // m/s
     double friction;
     bool bilateral;
+    bool b_is_fixed;  // B needs no arithmetic: what it would add is 0
   };
 
   /// What a sweep changed.
   struct Change {
     double largest = 0.0;  // m/s, of the points
     double energy = 0.0;   // J
+    bool any = false;      // some impulse
   };
 
   static Vector3 combined(const Vector3 (&vectors)[3], const Vector3& shares) {
@@ -118,6 +121,7 @@ class ContactSolver {
   Vector3 velocity(const Point& point) const {
     const Twist& A = bodies_[static_cast<std::size_t>(point.a)].twist;
     const Twist& B = bodies_[static_cast<std::size_t>(point.b)].twist;
+    if (point.b_is_fixed) return (B.v_WB - A.v_WB) - cross(A.w_WB, point.r_a);
     return (B.v_WB - A.v_WB) + (cross(B.w_WB, point.r_b) - cross(A.w_WB, point.r_a));
   }
   /// @param along N s, an impulse on B along the point's directions, and against A.
@@ -127,9 +131,11 @@ class ContactSolver {
     const Vector3 impulse = inWorld(point, along);
     A.twist.v_WB -= A.inverse_mass.cwiseProduct(impulse);
     A.twist.w_WB -= combined(point.spin_a, along);
+    if (point.b_is_fixed) return;
     B.twist.v_WB += B.inverse_mass.cwiseProduct(impulse);
     B.twist.w_WB += combined(point.spin_b, along);
   }
+  void turnPoint(Point& point, const Vector3& nhat_AB_W) const;
   Vector3 velocityAlong(const Point& point, int direction) const;
   static void weigh(Point& point, const Vector3 (&velocities)[3]);
   static void relaxTangents(Point& point, double v_s, double v_t);
@@ -138,6 +144,7 @@ class ContactSolver {
   void goOn(double share);
 
   std::vector<ContactBody> bodies_;
+  std::vector<bool> is_fixed_;  // of each body
   std::vector<Point> points_;
   std::vector<Vector3> before_;  // N s: the impulses before the last sweep
   std::vector<Vector3> search_;  // N s

@@ -121,6 +121,11 @@ constexpr double kLeastRestGap = 0.1;
 /// which must be a number of roundings.
 constexpr double kLeastTolerance = 1e-11;
 
+/// Largest ratio (-) of the masses of two bodies that can meet. A heavy box that falls on a light
+/// one on a floor needs a number of sweeps that grows with it: with 1e4 no step is cut off from
+/// 0.2 ms to 10 ms, with 2e4 some are.
+constexpr double kMostMassRatio = 1e4;
+
 /// Gap (-, of the contact tolerance) up to which a repair moves a pair.
 constexpr double kFairRestGap = 0.4;
 
@@ -157,11 +162,26 @@ constexpr int kFewFaces = 32;
 constexpr double kRoom = 0.25;
 constexpr double kStepsAhead = 10.0;
 
+/// What a room is made smaller by (-, of its size): more than the roundings of its sides.
+constexpr double kRoomRounding = 1e-12;
+
+/// Longest turn (rad) for which a body's distance from a plane is bounded by its distance before.
+constexpr double kLongestTurn = 0.1;
+
+/// Steps (-) for which what was found of bodies that are near nothing must hold on, as they turn
+/// now: to note it costs about as much as it saves in two. Else it is tried again that much later.
+constexpr double kLeastStepsClear = 4.0;
+constexpr int kStepsUntilClearances = 16;
+
 /// Room (m) of a body that is alone.
 constexpr double kFarRoom = 1e6;
 
 /// A body whose points came farther than `travel` allows is given twice what it took.
 constexpr double kTravelReserve = 2.0;
+
+/// A bound on the travel of bodies that are near nothing is kept until it is exceeded; it begins as
+/// this times the travel (-): a craft that speeds up from 1 to 10 m/s makes six of them.
+constexpr double kTravelRoom = 1.5;
 
 /// Bound on how often a step is begun anew with more travel: each time it at least doubles.
 constexpr int kMaxRestarts = 20;

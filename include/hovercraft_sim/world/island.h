@@ -31,8 +31,11 @@ struct IslandMember {
   std::int32_t index = 0;  // in the world
   BodyState state;
   BodyState end;
+  bool ends_freely = false;  // `end` is that of the whole step without contact, from `state`
   Pose pose;
-  Wrench contact;  // constant force and moment over the piece of a step
+  Twist twist;      // now, with rotors as they turn now
+  Twist twist_end;  // at the end of the step without contact, likewise
+  Wrench contact;   // constant force and moment over the piece of a step
   StepMotion motion;
   Vector3 travelled = Vector3::Zero();  // m
 };
@@ -56,9 +59,11 @@ class Island {
          std::vector<ContactRecord>& records)
       : scene_(scene), inputs_(inputs), s_(scratch), records_(records) {}
 
-  /// @param bodies and pairs of the group, ascending. @param memory ascending.
+  /// @param bodies and pairs of the group, ascending. @param states at the start of the step.
+  /// @param ends of the step without contact. @param memory ascending.
   void begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
-             const std::vector<BodyState>& states, const std::vector<ContactMemory>& memory);
+             const std::vector<BodyState>& states, const std::vector<BodyState>& ends,
+             const std::vector<ContactMemory>& memory);
   /// Runs the events of the step. @returns false if their bound cut off the rest of it.
   bool run();
 
@@ -76,10 +81,12 @@ class Island {
   ClosestFeatures closestNow(IslandLink& link);
   bool shiftApart(const IslandLink& link, double by);
   void strike(double now);
+  bool isStruck() const;
+  bool isStruck(const IslandLink& link) const;
+  void addImpactPoints();
   FreeStep freeStepOf(const IslandLink& link, const ImpactPoint& point) const;
   void slowBounces();
   double slowApproach() const;
-  bool isStruck() const;
   void report(double now);
   void press(double now);
   bool addRestPoints(IslandLink& link, double left);
@@ -90,12 +97,14 @@ class Island {
   BodyState moved(const IslandMember& member, double from, double to, const Wrench& contact) const;
   double restSpeed(const IslandLink& link) const;
   const Pose& poseOfIndex(std::int32_t index) const;
-  StepMotion motionOfIndex(std::int32_t index) const;
+  const StepMotion& motionOfIndex(std::int32_t index) const;
   void addBodies(bool at_end);
-  // Velocities, with rotors as they turn then: at the start of the piece, or at its end without
-  // contact. A slot is 0 for what is fixed, else 1 + the index of the member.
-  Twist twistNow(const IslandMember& member) const;
-  Twist twistAtEnd(const IslandMember& member) const;
+  void endFreely(IslandMember& member, double from);
+  void takeTwists();
+  bool isTouched() const;
+  void leave();
+  // Velocities at the start of the piece, or at its end without contact. A slot is 0 for what is
+  // fixed, else 1 + the index of the member.
   Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC) const;
   Vector3 velocityAtEnd(std::int32_t slot, const Vector3& p_WC) const;
   Vector3 centripetalNow(std::int32_t slot, const Vector3& p_WC) const;

@@ -10,7 +10,7 @@ namespace hovercraft {
 inline Vector3 lagOf(const IslandMember& member, const Scene& scene, double duration) {
   const Mobility& mobility = scene.mobilityOf(member.index);
   const Vector3 mean =
-      0.5 * (twistOf(member.state, mobility).v_WB + twistOf(member.end, mobility).v_WB);
+      0.5 * (velocityOf(member.state, mobility) + velocityOf(member.end, mobility));
   return (positionOf(member.end) - positionOf(member.state)) / duration - mean;
 }
 

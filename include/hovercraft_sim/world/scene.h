@@ -55,6 +55,9 @@ class Scene {
   const Pose& fixedPose(std::int32_t index) const {
     return obstacles_[static_cast<std::size_t>(index) - bodies_.size()].X_WO;
   }
+  const StepMotion& fixedMotion(std::int32_t index) const {
+    return obstacle_motions_[static_cast<std::size_t>(index) - bodies_.size()];
+  }
   const AxisAlignedBox& fixedBox(std::size_t obstacle) const { return obstacle_boxes_[obstacle]; }
   Pose poseIn(const std::vector<BodyState>& states, std::int32_t index) const;
 
@@ -72,15 +75,43 @@ class Scene {
   /// seconds, m: straight, curved, and turned.
   Vector3 travelOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
 
+  /// A bound on travelOf() that needs no root, and holds for a while.
+  struct TravelBound {
+    Vector3 straight = Vector3::Constant(-1.0);  // m: what it may go and bend along each axis
+    double spin = 0.0;                           // (N m s)²: of its angular momentum
+    Vector3 travel = Vector3::Zero();            // m
+  };
+
+  /// A bound for steps of h seconds of a body that goes on like this one, or somewhat faster.
+  TravelBound travelBoundOf(std::size_t body, const BodyState& from, const BodyState& to,
+                            double h) const;
+  /// Whether travelOf() is within the bound, along each axis.
+  bool holds(const TravelBound& bound, std::size_t body, const BodyState& from, const BodyState& to,
+             double h) const;
+
   /// Radius of a body around its centre of mass, m.
   double radiusOf(std::size_t body) const { return extents_[body].radius; }
   /// A box around a body's hull, widened by a margin along each axis, m.
   AxisAlignedBox boxOf(std::size_t body, const Pose& pose, const Vector3& margin) const;
   /// Whether a body that goes no farther along the axes of W than `travel` (m) stays on the outer
   /// side of a face of an obstacle, by more than a resting contact. Only obstacles of few faces are
-  /// looked at (kFewFaces).
+  /// looked at (kFewFaces). @param side which.
   bool staysOutside(std::size_t body, const Pose& pose, const Vector3& travel,
-                    std::int32_t obstacle) const;
+                    std::int32_t obstacle, int side) const;
+  /// Whether it stays on the outer side of some face. @param side written: which.
+  bool findSideOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+                       std::int32_t obstacle, int& side) const;
+
+  /// How a face of an obstacle keeps a body on its outer side.
+  struct Separation {
+    Vector3 normal = Vector3::Zero();  // unit, in W
+    double gap = 0.0;       // m, beyond what staysOutside() asks for; negative: it is not
+    double per_turn = 0.0;  // m per rad: what the body may come nearer by turning
+    double size = 0.0;      // m, of the numbers in it
+  };
+  /// @param side of the obstacle.
+  Separation separationOf(std::size_t body, const Pose& pose, const Vector3& travel,
+                          std::int32_t obstacle, int side) const;
 
   ClosestFeatures closestOf(const std::vector<BodyState>& states, const ScenePair& pair) const;
 
@@ -101,11 +132,25 @@ class Scene {
     Vector3 turns = Vector3::Ones();  // 0 along an axis about which alone it can turn
   };
 
+  /// What travelOf() is made from.
+  struct Course {
+    Vector3 straight;  // m, along each axis
+    double spin;       // (N m s)²
+  };
+
+  Course courseOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
+  Vector3 travelOf(std::size_t body, const Course& course, double h) const;
+
   /// normal · x <= offset inside, in W.
   struct Side {
     Vector3 normal;
     double offset;  // m
   };
+
+  bool isOutside(const Extent& extent, const Pose& pose, const Vector3& travel,
+                 const Side& side) const;
+  double beyond(const Extent& extent, const Pose& pose, const Vector3& travel,
+                const Side& side) const;
 
   static Extent extentOf(const WorldBody& body);
   /// None of a hull of more than a few faces.
@@ -117,6 +162,7 @@ class Scene {
   std::vector<std::optional<PlanarCraft>> planar_;  // of each body
   std::vector<Extent> extents_;                     // of each body, where bodies meet
   std::vector<AxisAlignedBox> obstacle_boxes_;
+  std::vector<StepMotion> obstacle_motions_;       // standing still
   std::vector<std::vector<Side>> obstacle_sides_;  // none of those of many faces
 };
 

@@ -69,13 +69,35 @@ class HOVERCRAFT_PUBLIC World {
   /// What the neighbour search knows of a body.
   struct Extent {
     Vector3 travel = Vector3::Zero();  // m: how far its points can come in this step
+    Scene::TravelBound bound;          // kept from step to step
     AxisAlignedBox roomy;              // its neighbours are known as long as it stays inside
+    // What isClear() showed holds on while the bound does, the centre of mass is at home, it turned
+    // by less than this from there, and its neighbours' planes say so.
+    AxisAlignedBox home;
+    BodyState seen;
+    double turn = 0.0;  // (-), squared difference of quaternions
   };
 
+  struct Neighbour {
+    ScenePair pair;
+    int side = 0;                      // of an obstacle: where the body was outside last
+    Vector3 normal = Vector3::Zero();  // the body is clear of it while normal · p_WB >= least
+    double least = 0.0;                // m
+  };
+
+  bool isClear(const std::vector<BodyState>& states, const std::vector<BodyState>& ends);
+  int takeTravel(const std::vector<BodyState>& states, const std::vector<BodyState>& ends);
   Vector3 reachOf(std::size_t body) const;
   void makeRoom(const std::vector<BodyState>& states);
   bool findNeighbours(const std::vector<BodyState>& states);
+  void collectNeighbours(const std::vector<BodyState>& states);
+  bool stayClear(const std::vector<BodyState>& states) const;
+  void makeClearances(const std::vector<BodyState>& states, const std::vector<BodyState>& ends);
+  bool makeClearance(Neighbour& neighbour);
   void findNearPairs(const std::vector<BodyState>& states);
+  void takePoses(const std::vector<BodyState>& states);
+  const AxisAlignedBox& boxOf(std::size_t body);
+  bool areApart(Neighbour& neighbour);
   void collectGroups();
   bool listGroup(std::int32_t group);
   bool takeIsland(StepResult& result);
@@ -90,13 +112,18 @@ class HOVERCRAFT_PUBLIC World {
   Scene scene_;
   std::vector<Extent> extents_;
   bool knows_neighbours_ = false;
-  std::vector<ScenePair> neighbours_;  // may come near, ascending
+  bool has_clearances_ = false;        // those of the list of neighbours and the bounds
+  int wait_ = 0;                       // steps until clearances are made again
+  bool was_clear_ = true;              // no pair was near in the last step
+  std::vector<Neighbour> neighbours_;  // may come near, ascending
   std::vector<double> rooms_;          // m, of each body
   std::vector<ScenePair> near_;        // may meet in this step, ascending
   std::vector<std::int32_t> group_;    // of each body: the least index in its group
   std::vector<ScenePair> group_pairs_;
   std::vector<std::int32_t> group_bodies_;
+  std::vector<Pose> poses_;  // of bodies at the start of the step
   std::vector<AxisAlignedBox> boxes_;
+  std::vector<char> has_box_;  // 1: boxes_ has its box of this step
   IslandScratch scratch_;
   std::int64_t stalls_ = 0;
   std::int64_t cut_off_ = 0;  // islands of this step that their bound cut off
