@@ -128,6 +128,13 @@ class HOVERCRAFT_PUBLIC Mobility {
   /// 1/m along each axis of W; 0 where the model does not move.
   Vector3 inverseMass() const { return inverse_mass_ * free_translation_; }
 
+  /// 1/m, 1/kg, and Î⁻¹ in B, 1/(kg m²); and 1 along each axis of W that the model moves and turns
+  /// about, else 0.
+  double perMass() const { return inverse_mass_; }
+  const Matrix3& inverseInertiaInBody() const { return inverse_inertia_B_; }
+  const Vector3& freeTranslation() const { return free_translation_; }
+  const Vector3& freeRotation() const { return free_rotation_; }
+
   /// R Î⁻¹ Rᵀ in W, restricted to the model's rotations.
   Matrix3 inverseInertia(const Matrix3& R_WB) const {
     const Matrix3 turned = product(R_WB, inverse_inertia_B_);

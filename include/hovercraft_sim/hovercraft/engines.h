@@ -95,6 +95,17 @@ struct ThrustCourse {
 /// size.
 class HOVERCRAFT_PUBLIC EngineDynamics {
  public:
+  /// What a step needs of an engine.
+  struct Rule {
+    double min_thrust = 0.0;                                // N
+    double max_thrust = 0.0;                                // N
+    double half_decay = 0.0;                                // exp(-h/2τ); 0 without lag
+    double full_decay = 0.0;                                // exp(-h/τ)
+    Tick timeout_ticks = std::numeric_limits<Tick>::max();  // whole steps, rounded up; never
+    bool lags = false;
+    std::shared_ptr<const CommandMap> map;  // null: a command is the thrust
+  };
+
   /// @param step_ns length of a step, ns, > 0.
   EngineDynamics(const ActuatorArray<EngineParameters>& parameters, std::int64_t step_ns);
 
@@ -123,6 +134,17 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     return demandOf(rules_[static_cast<std::size_t>(engine)], state, tick);
   }
 
+  /// The same by the rule alone, for who keeps it elsewhere.
+  static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
+    if (state.stuck) return state.thrust;
+    if (isTimedOut(rule, state, tick)) return 0.0;
+    const double level = isMapped(rule, state)
+                             ? rule.map->levelOf(state.commanded, rule.min_thrust, rule.max_thrust)
+                             : state.commanded;
+    return state.efficiency * std::clamp(level, rule.min_thrust, rule.max_thrust);
+  }
+  const Rule& rule(std::size_t id) const { return rules_[id]; }
+
   /// Thrusts in the step that begins at `tick`. Without lag the thrust is the demand from the start
   /// of the step on; with lag it is the exact solution of T' = (demand - T)/time_constant at each
   /// stage.
@@ -131,17 +153,6 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
   void course(const EngineStates& states, Tick tick, ThrustCourse& course) const;
 
  private:
-  /// What a step needs of an engine.
-  struct Rule {
-    double min_thrust = 0.0;                                // N
-    double max_thrust = 0.0;                                // N
-    double half_decay = 0.0;                                // exp(-h/2τ); 0 without lag
-    double full_decay = 0.0;                                // exp(-h/τ)
-    Tick timeout_ticks = std::numeric_limits<Tick>::max();  // whole steps, rounded up; never
-    bool lags = false;
-    std::shared_ptr<const CommandMap> map;  // null: a command is the thrust
-  };
-
   /// Before the first command what is commanded is a level.
   static bool isMapped(const Rule& rule, const EngineState& state) {
     return rule.map != nullptr && state.command_tick != EngineState::kNever;
@@ -150,14 +161,6 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
   static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
     return state.command_tick != EngineState::kNever &&
            tick - state.command_tick >= rule.timeout_ticks;
-  }
-  static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
-    if (state.stuck) return state.thrust;
-    if (isTimedOut(rule, state, tick)) return 0.0;
-    const double level = isMapped(rule, state)
-                             ? rule.map->levelOf(state.commanded, rule.min_thrust, rule.max_thrust)
-                             : state.commanded;
-    return state.efficiency * std::clamp(level, rule.min_thrust, rule.max_thrust);
   }
 
   std::int64_t step_ns_;
@@ -174,6 +177,9 @@ class HOVERCRAFT_PUBLIC EngineGeometry {
   Wrench wrenchInBody(const Vector3& thrusts) const {
     return {times(force_map_, thrusts), times(torque_map_, thrusts)};
   }
+  /// Column i: force (N) and moment (N m) of 1 N of engine i.
+  const Matrix3& forceMap() const { return force_map_; }
+  const Matrix3& torqueMap() const { return torque_map_; }
 
  private:
   Matrix3 force_map_;   // column i: direction of engine i

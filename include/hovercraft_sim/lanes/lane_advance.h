@@ -1,0 +1,165 @@
+#pragma once
+
+#include "hovercraft_sim/lanes/lane_step.h"
+#include "hovercraft_sim/math/tolerances.h"
+
+/// Steps of a block for one instruction set: the course of the actuators, the step, what follows it
+/// (EngineDynamics::course(), integrationStep(), settle() of simulation.cpp).
+
+namespace hovercraft::lanes {
+
+/// Some columns of what a block's craft are, in registers or on the stack while steps are made.
+template <class Isa>
+struct PackState {
+  Motion<Isa> motion;
+  NumberOf<Isa> level[kMostActuators];
+
+  [[gnu::always_inline]] void read(const BlockState& state, std::size_t first, std::size_t count) {
+    motion = {loadVector<Isa>(state.p_WB, first),
+              {load<Isa>(state.q_s, first), loadVector<Isa>(state.q_v, first)},
+              loadVector<Isa>(state.momentum_W, first),
+              loadVector<Isa>(state.angular_momentum_W, first)};
+    for (std::size_t i = 0; i < count; ++i) level[i] = load<Isa>(state.level[i], first);
+  }
+  [[gnu::always_inline]] void write(BlockState& state, std::size_t first, std::size_t count) const {
+    storeVector<Isa>(motion.p, state.p_WB, first);
+    store<Isa>(motion.q.s, state.q_s, first);
+    storeVector<Isa>(motion.q.v, state.q_v, first);
+    storeVector<Isa>(motion.P, state.momentum_W, first);
+    storeVector<Isa>(motion.L, state.angular_momentum_W, first);
+    for (std::size_t i = 0; i < count; ++i) store<Isa>(level[i], state.level[i], first);
+  }
+};
+
+template <class Isa>
+[[gnu::always_inline]] inline Vector<Isa> chosen(MaskOf<Isa> mask, const Vector<Isa>& yes,
+                                                 const Vector<Isa>& no) {
+  return {choose<Isa>(mask, yes.x, no.x), choose<Isa>(mask, yes.y, no.y),
+          choose<Isa>(mask, yes.z, no.z)};
+}
+
+/// Where the mask is none what was there before.
+template <class Isa>
+[[gnu::always_inline]] inline void keep(MaskOf<Isa> mask, const PackState<Isa>& before,
+                                        std::size_t count, PackState<Isa>& after) {
+  Motion<Isa>& next = after.motion;
+  const Motion<Isa>& last = before.motion;
+  next = {chosen<Isa>(mask, next.p, last.p),
+          {choose<Isa>(mask, next.q.s, last.q.s), chosen<Isa>(mask, next.q.v, last.q.v)},
+          chosen<Isa>(mask, next.P, last.P),
+          chosen<Isa>(mask, next.L, last.L)};
+  for (std::size_t i = 0; i < count; ++i) {
+    after.level[i] = choose<Isa>(mask, after.level[i], before.level[i]);
+  }
+}
+
+/// Levels over a step, and what the engines make of them.
+template <class Isa, bool kHasMore>
+[[gnu::always_inline]] inline void turnActuators(const PackSystem<Isa, kHasMore>& system,
+                                                 const Block& block, bool has_middle,
+                                                 const PackState<Isa>& state,
+                                                 StepLoads<Isa>& loads) {
+  const std::size_t first = system.first;
+  const std::size_t count = kHasMore ? system.plan.actuator_count : 3;
+  const BlockConstants& constants = block.constants;
+  for (std::size_t i = 0; i < count; ++i) {
+    const NumberOf<Isa> demanded = load<Isa>(block.demand[i], first);
+    NumberOf<Isa> lead = where<Isa>(load<Isa>(constants.lags[i], first), state.level[i] - demanded);
+    lead = where<Isa>(~(absolute<Isa>(lead) < same<Isa>(kSettledThrust)), lead);
+    loads.start.levels[i] = demanded + lead;
+    loads.middle.levels[i] = demanded + lead * load<Isa>(constants.half_decay[i], first);
+    loads.end.levels[i] = demanded + lead * load<Isa>(constants.full_decay[i], first);
+  }
+  loads.start.engines_B = system.enginesWrench(loads.start.levels);
+  if (has_middle) loads.middle.engines_B = system.enginesWrench(loads.middle.levels);
+  loads.end.engines_B = system.enginesWrench(loads.end.levels);
+}
+
+template <class Isa>
+[[gnu::always_inline]] inline Vector<Isa> settled(const Vector<Isa>& momentum) {
+  const NumberOf<Isa> least = same<Isa>(kSettledMomentum);
+  return {where<Isa>(~(absolute<Isa>(momentum.x) < least), momentum.x),
+          where<Isa>(~(absolute<Isa>(momentum.y) < least), momentum.y),
+          where<Isa>(~(absolute<Isa>(momentum.z) < least), momentum.z)};
+}
+
+/// Renormalised and settled. @returns where the motion is sound.
+template <class Isa>
+[[gnu::always_inline]] inline MaskOf<Isa> finish(Motion<Isa>& motion) {
+  using Number = NumberOf<Isa>;
+  const Number factor = same<Isa>(1.0) / Isa::sqrt(squaredNorm(motion.q));
+  motion.q = {factor * motion.q.s, scaled<Isa>(factor, motion.q.v)};
+  motion.P = settled<Isa>(motion.P);
+  motion.L = settled<Isa>(motion.L);
+  const Vector<Isa> sum = (motion.p + motion.P) + motion.L;
+  const Number finite = absolute<Isa>((sum.x + sum.y) + sum.z);
+  const Number length = absolute<Isa>(squaredNorm(motion.q) - same<Isa>(1.0));
+  return (finite < same<Isa>(__builtin_inf())) & (length < same<Isa>(kUnitLength));
+}
+
+/// Notes which craft were lost in the step after `made` ones.
+template <class Isa>
+[[gnu::noinline]] void noteLost(const MaskOf<Isa>& moves, std::size_t first, std::int64_t made,
+                                BlockState& state) {
+  for (std::size_t i = 0; i < Isa::kWidth; ++i) {
+    if (moves[i] == 0 && state.moves.of[first + i] != 0) state.lost_after[first + i] = made;
+  }
+  store<Isa>(moves, state.moves, first);
+}
+
+template <class Isa, Method kMethod, bool kHasMore>
+[[gnu::noinline]] void advancePack(const StepPlan& plan, const BlockSteps& steps,
+                                   std::size_t first) {
+  Block& block = *steps.block;
+  const std::size_t count = kHasMore ? plan.actuator_count : 3;
+  PackSystem<Isa, kHasMore> system = {
+      plan, block.constants, {steps.more, first}, first, loadVector<Isa>(steps.wind_W, first)};
+  PackState<Isa> state;
+  state.read(block.state, first, count);
+  MaskOf<Isa> moves = load<Isa>(block.state.moves, first);
+  StepLoads<Isa> loads;
+  for (std::int64_t made = 0; made < steps.count; ++made) {
+    const std::size_t blown = static_cast<std::size_t>(made) * steps.wind_stride;
+    if (blown > 0) system.wind_W = loadVector<Isa>(steps.wind_W + blown, first);
+    turnActuators(system, block, kMethod == Method::kRungeKutta4, state, loads);
+    PackState<Isa> next;
+    next.motion = steppedMotion<kMethod>(system, state.motion, loads);
+    const MaskOf<Isa> sound = finish<Isa>(next.motion) & moves;
+    for (std::size_t i = 0; i < count; ++i) next.level[i] = loads.end.levels[i];
+    if (!Isa::allOf(sound)) {
+      keep<Isa>(sound, state, count, next);
+      noteLost<Isa>(sound, first, made, block.state);
+      moves = sound;
+    }
+    state = next;
+  }
+  state.write(block.state, first, count);
+}
+
+template <class Isa, Method kMethod>
+inline void advanceBlock(const StepPlan& plan, const BlockSteps& steps) {
+  for (std::size_t first = 0; first < kBlockLanes; first += Isa::kWidth) {
+    if (plan.hasMoreForces() || plan.actuator_count > 3) {
+      advancePack<Isa, kMethod, true>(plan, steps, first);
+    } else {
+      advancePack<Isa, kMethod, false>(plan, steps, first);
+    }
+  }
+}
+
+/// An Advance.
+template <class Isa>
+void advance(const StepPlan& plan, const BlockSteps& steps) {
+  switch (plan.method) {
+    case Method::kEuler:
+      return advanceBlock<Isa, Method::kEuler>(plan, steps);
+    case Method::kSemiImplicitEuler:
+      return advanceBlock<Isa, Method::kSemiImplicitEuler>(plan, steps);
+    case Method::kHeun:
+      return advanceBlock<Isa, Method::kHeun>(plan, steps);
+    case Method::kRungeKutta4:
+      return advanceBlock<Isa, Method::kRungeKutta4>(plan, steps);
+  }
+}
+
+}  // namespace hovercraft::lanes
