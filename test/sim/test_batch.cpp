@@ -1,10 +1,6 @@
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
+#include <cstddef>
 #include <optional>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,13 +9,19 @@
 
 #include "hovercraft_sim/sim/batch.h"
 #include "hovercraft_sim/sim/simulation.h"
+#include "hovercraft_sim/sim/state_hash.h"
 
+#include "../support/foreign_environment.h"
 #include "../support/random_craft.h"
+#include "../support/same_bits.h"
+#include "../support/share.h"
 
 namespace hovercraft {
 namespace {
 
+using testing::bitsOf;
 using testing::RandomCraft;
+using testing::shareOf;
 
 /// A batch of one instruction set beside a Simulation of each of its runs.
 class Beside {
@@ -48,9 +50,7 @@ class Beside {
     return differing;
   }
 
-  std::size_t lostCount() const {
-    return static_cast<std::size_t>(std::count(lost_.begin(), lost_.end(), true));
-  }
+  std::ptrdiff_t lostCount() const { return std::count(lost_.begin(), lost_.end(), true); }
 
  private:
   void step(std::size_t run, Tick ticks) {
@@ -66,7 +66,7 @@ class Beside {
   bool isSame(std::size_t run) const {
     const Simulation& one = simulations_[run];
     return batch_.divergedAt(run).has_value() == lost_[run] && batch_.hash(run) == one.hash() &&
-           batch_.tickOf(run) == one.tick();
+           batch_.tickOf(run) == one.tick() && bitsOf(batch_.motion(run)) == bitsOf(one.motion(0));
   }
 
   Batch batch_;
@@ -95,15 +95,229 @@ const std::vector<Integrator>& integrators() {
   return all;
 }
 
+/// Each instruction set of this machine, model and integrator.
+template <class Check>
+void withEveryKind(Check check) {
+  for (const InstructionSet set : availableInstructionSets()) {
+    for (const BodyModel model : {BodyModel::kPlanar, BodyModel::kSpatial}) {
+      for (const Integrator integrator : integrators()) check(integrator, model, set);
+    }
+  }
+}
+
+std::vector<Scenario> scenariosOf(RandomCraft& craft, std::size_t count) {
+  std::vector<Scenario> scenarios;
+  for (std::size_t run = 0; run < count; ++run) scenarios.push_back(craft.scenario());
+  return scenarios;
+}
+
+std::string refusalOf(const std::vector<Scenario>& scenarios, const BatchOptions& options = {}) {
+  try {
+    const Batch batch(scenarios, options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Scenario plainScenario() {
+  return RandomCraft(Integrator::kHeun, BodyModel::kPlanar, 1).scenario();
+}
+
+/// Of one change.
+template <class Change>
+std::string refusalAfter(Change change) {
+  Scenario scenario = plainScenario();
+  change(scenario);
+  return refusalOf({scenario});
+}
+
+/// Of a second run that differs from the first.
+template <class Change>
+std::string refusalOfSecond(Change change) {
+  Scenario scenario = plainScenario();
+  change(scenario);
+  return refusalOf({plainScenario(), scenario});
+}
+
 // ---- the bits of Simulation ---------------------------------------------------------------------
 
 TEST(Batch, EveryRunHasTheBitsOfItsSimulationAtEveryTick) {
-  for (const InstructionSet set : availableInstructionSets()) {
-    for (const BodyModel model : {BodyModel::kPlanar, BodyModel::kSpatial}) {
-      for (const Integrator integrator : integrators()) {
-        expectSameBits(RandomCraft(integrator, model, 1), set, 400);
+  withEveryKind([](Integrator integrator, BodyModel model, InstructionSet set) {
+    expectSameBits(RandomCraft(integrator, model, 1), set, shareOf(600));
+  });
+}
+
+TEST(Batch, FansPropellersRuddersPolarsAndRotorsHaveTheirBits) {
+  withEveryKind([](Integrator integrator, BodyModel model, InstructionSet set) {
+    expectSameBits(RandomCraft(integrator, model, 2).withActuators(), set, shareOf(300));
+  });
+}
+
+TEST(Batch, GustsHaveTheirBits) {
+  withEveryKind([](Integrator integrator, BodyModel model, InstructionSet set) {
+    expectSameBits(RandomCraft(integrator, model, 3).withGusts(), set, shareOf(100));
+  });
+}
+
+TEST(Batch, ManyTicksAtOnceAreTheSameAsOneByOne) {
+  for (const bool has_gusts : {false, true}) {
+    RandomCraft craft(Integrator::kHeun, BodyModel::kSpatial, 4);
+    if (has_gusts) craft.withGusts();
+    const std::vector<Scenario> scenarios = scenariosOf(craft, 300);
+    for (const int threads : {1, 2, 5}) {
+      Beside both(scenarios, availableInstructionSets().back(), threads);
+      for (Tick period = 0; period < 5; ++period) {
+        for (std::size_t run = 0; run < scenarios.size(); ++run) {
+          for (Tick tick = 70 * period; tick < 70 * (period + 1); ++tick) {
+            if (const auto command = craft.command(tick)) both.push(run, *command);
+          }
+        }
+        ASSERT_EQ(both.differingAfter(70), 0U) << threads << " threads, period " << period;
       }
     }
+  }
+}
+
+TEST(Batch, WhatDecaysEndsAtZeroAsInASimulation) {
+  RandomCraft craft(Integrator::kHeun, BodyModel::kPlanar, 5);
+  std::vector<Scenario> scenarios = scenariosOf(craft, 9);
+  for (Scenario& scenario : scenarios) {
+    scenario.wind = scenario.gravity = Vector3::Zero();
+    VehicleScenario& vehicle = scenario.vehicles.front();
+    vehicle.drag.linear = vehicle.drag.angular_linear =
+        Vector3::Constant(400.0 * vehicle.mass_properties.mass);
+    vehicle.drag.angular_linear *= 0.01;
+    vehicle.drag.quadratic = vehicle.drag.angular_quadratic = Vector3::Zero();
+    for (EngineParameters& engine : vehicle.engines) {
+      engine.time_constant = 0.001;
+      engine.timeout_ns = 5000000;
+    }
+  }
+  for (const InstructionSet set : availableInstructionSets()) {
+    Beside both(scenarios, set);
+    for (std::size_t run = 0; run < scenarios.size(); ++run) {
+      both.push(run, {0, 0, kAllEngines, Vector3(2.0, 1.0, 0.5)});
+    }
+    for (Tick tick = 0; tick < 1500; ++tick) ASSERT_EQ(both.differingAfter(1), 0U) << tick;
+    for (std::size_t run = 0; run < scenarios.size(); ++run) {
+      EXPECT_EQ(both.batch().body(run).momentum_W, Vector3(Vector3::Zero()));
+      EXPECT_EQ(both.batch().actuators(run)[0].thrust, 0.0);
+    }
+  }
+}
+
+TEST(Batch, ARunThatDivergesStaysAsItWasAndDisturbsNoOther) {
+  for (const bool has_gusts : {false, true}) {
+    RandomCraft craft(Integrator::kRungeKutta4, BodyModel::kSpatial, 6);
+    if (has_gusts) craft.withGusts();
+    std::vector<Scenario> scenarios = scenariosOf(craft, 20);
+    for (const std::size_t run : {1U, 2U, 9U, 19U}) {
+      VehicleScenario& vehicle = scenarios[run].vehicles.front();
+      // Too stiff for a step of 1 ms.
+      vehicle.drag.linear = Vector3::Constant(2e4 * static_cast<double>(run));
+      vehicle.drag.quadratic = Vector3::Constant(1e3);
+    }
+    for (const InstructionSet set : availableInstructionSets()) {
+      for (const Tick ticks : {1, 50}) {
+        Beside both(scenarios, set);
+        for (Tick tick = 0; tick < 200; tick += ticks) {
+          for (std::size_t run = 0; run < scenarios.size(); ++run) {
+            both.push(run, {tick + ticks / 2, 0, kAllEngines, Vector3(1.0, 0.5, 0.2)});
+          }
+          ASSERT_EQ(both.differingAfter(ticks), 0U)
+              << instructionSetName(set) << ", after tick " << tick;
+        }
+        EXPECT_EQ(both.lostCount(), 4);
+        EXPECT_EQ(both.batch().tick(), 200);
+        EXPECT_FALSE(both.batch().divergedAt(0).has_value());
+      }
+    }
+  }
+}
+
+TEST(Batch, DoesNotDependOnTheFloatingPointEnvironment) {
+  RandomCraft craft(Integrator::kHeun, BodyModel::kSpatial, 7);
+  const std::vector<Scenario> scenarios = scenariosOf(craft.withActuators().withGusts(), 9);
+  testing::expectSameBits("Batch", [&scenarios] {
+    Batch batch(scenarios, {2, std::nullopt});
+    for (std::size_t run = 0; run < batch.size(); ++run) {
+      batch.push(run, {3, 0, kAllEngines, {1.0, -0.7, 0.3, 0.1, 0.1, 0.1, 0.2, 0.1}});
+    }
+    batch.run(100);
+    StateHash all;
+    for (std::size_t run = 0; run < batch.size(); ++run) {
+      all.add(batch.hash(run));
+      all.add(bitsOf(batch.motion(run)));
+    }
+    return all.value();
+  });
+}
+
+// ---- what runs there are ------------------------------------------------------------------------
+
+TEST(Batch, RunsOfOneScenarioAreAsMany) {
+  Batch batch(plainScenario(), 3);
+  batch.add(plainScenario());
+  batch.run(5);
+  EXPECT_EQ(batch.size(), 4U);
+  EXPECT_EQ(batch.hash(3), batch.hash(0));
+  EXPECT_EQ(batch.tick(), 5);
+}
+
+TEST(Batch, RefusesByNameWhatItCannotDo) {
+  EXPECT_EQ(refusalAfter([](Scenario& s) { s.world = WorldScenario(); }),
+            "world: a batch has craft that meet nothing: must not be");
+  EXPECT_EQ(refusalAfter([](Scenario& s) { s.vehicles.push_back(s.vehicles.front()); }),
+            "vehicles: a run of a batch must have one craft");
+  EXPECT_EQ(refusalAfter([](Scenario& s) { s.vehicles.front().cushion = CushionParameters(); }),
+            "vehicles.craft.cushion: a batch computes no cushion: must not be");
+  EXPECT_EQ(refusalAfter([](Scenario& s) { s.ground = GroundScenario(); }),
+            "ground: a batch computes no ground: must not be");
+  EXPECT_EQ(refusalAfter([](Scenario& s) {
+              s.ground = GroundScenario{HeightMapScenario(), {}};
+            }),
+            "ground.height_map: a batch computes no ground: must not be");
+  EXPECT_EQ(refusalAfter([](Scenario& s) { s.vehicles.front().sensors.resize(1); }),
+            "vehicles.craft.sensors: a batch reads no sensors: must not be");
+  EXPECT_EQ(refusalAfter([](Scenario& s) { s.orientation = OrientationKind::kMatrix; }),
+            "orientation: must be quaternion in a batch");
+  EXPECT_EQ(refusalOf({}), "a batch must have a scenario");
+  EXPECT_EQ(refusalOf({plainScenario()}, {0, std::nullopt}), "threads = 0: must be 1 or greater");
+}
+
+TEST(Batch, RefusesByNameInWhatARunMustNotDiffer) {
+  const std::string rule = ": must be that of the first run of the batch";
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.step_ns = 2000000; }), "run 1: step_size" + rule);
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.integrator = Integrator::kEuler; }),
+            "run 1: integrator" + rule);
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.model = BodyModel::kSpatial; }),
+            "run 1: model" + rule);
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.gusts = GustParameters(); }),
+            "run 1: gusts" + rule);
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().actuators.resize(1); }),
+            "run 1: the names of the actuators" + rule);
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().polar = DragPolar(); }),
+            "run 1: actuators and polar: their kinds and fans" + rule);
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) {
+              s.vehicles.front().engines[1].rotor = {1e-5, 900.0, 1.0};
+            }),
+            "run 1: which actuators have a rotor" + rule);
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.world = WorldScenario(); }),
+            "run 1: world: a batch has craft that meet nothing: must not be");
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().name = "other"; }), "");
+}
+
+TEST(Batch, AnInstructionSetThatIsNotThereIsRefused) {
+  const std::vector<InstructionSet> sets = availableInstructionSets();
+  ASSERT_GE(sets.size(), 2U);
+  EXPECT_EQ(sets.front(), InstructionSet::kScalar);
+  for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+    const bool is_there = std::find(sets.begin(), sets.end(), set) != sets.end();
+    EXPECT_EQ(refusalOf({plainScenario()}, {1, set}),
+              is_there ? ""
+                       : std::string("instruction set ") + instructionSetName(set) +
+                             ": this machine does not have it");
   }
 }
 

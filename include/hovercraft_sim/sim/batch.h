@@ -56,7 +56,7 @@ class HOVERCRAFT_PUBLIC Batch {
   std::int64_t stepNs() const { return kind_.step_ns; }
   /// The last tick of a run whose motion is not finite after the step that begins there, as where
   /// Simulation::step() throws: it stays as it was then. None: it goes on.
-  std::optional<Tick> divergedAt(std::size_t run) const;
+  [[nodiscard]] std::optional<Tick> divergedAt(std::size_t run) const;
 
   /// As in Simulation::state(), and of the tick of the run.
   RigidBodyState<Quaternion> body(std::size_t run) const;
