@@ -20,7 +20,7 @@ struct Pairs {
 #if defined(__SSE2__)
     return _mm_sqrt_pd(x);
 #elif defined(__aarch64__)
-    return vsqrtq_f64(x);
+    return reinterpret_cast<Number>(vsqrtq_f64(reinterpret_cast<float64x2_t>(x)));
 #else
     return Number{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])};
 #endif

@@ -77,10 +77,10 @@ void Batch::add(const Scenario& scenario) {
   std::optional<Gusts> gusts = gustsOf(scenario);
   growBlocks();
   const std::size_t block = size() / kBlockLanes;
-  writeLane(scenario, kind_, model,
+  const EngineDynamics dynamics(parametersOf(craft), scenario.step_ns);
+  writeLane(scenario, model, dynamics,
             {blocks_[block], wind_W_.data() + 3 * block, more_.data() + block * kind_.rows,
              size() % kBlockLanes});
-  const EngineDynamics dynamics(parametersOf(craft), scenario.step_ns);
   const EngineStates engines = initialActuators(craft);
   for (std::size_t id = 0; id < engines.size(); ++id) {
     actuators_.push_back({dynamics.rule(id), engines[id].commanded, engines[id].command_tick});
@@ -137,13 +137,19 @@ Tick Batch::takeEvents(std::size_t run, Tick tick) {
   return next;
 }
 
-/// The wind at a block's craft in the steps from a tick on; gusts go on to the tick after them.
-/// @param rows three for each step.
-void Batch::fillWind(std::size_t block, Tick tick, Tick count, Row* rows) {
+/// The wind at a block's craft over some steps.
+struct Batch::BlockAir {
+  std::array<Row, static_cast<std::size_t>(3 * kGustTicks)> wind_W;  // three for each step
+  std::array<GustState, kBlockLanes> before;                         // of the gusts at their begin
+};
+
+/// The wind in the steps from a tick on; gusts go on to the tick after them.
+void Batch::blow(std::size_t block, Tick tick, Tick count, BlockAir& around) {
   for (std::size_t lane = 0; lane < kBlockLanes; ++lane) {
     const std::size_t run = block * kBlockLanes + lane;
+    if (run < size()) around.before[lane] = airs_[run].state;
     for (Tick i = 0; i < count; ++i) {
-      Row* const step = rows + 3 * i;
+      Row* const step = around.wind_W.data() + 3 * i;
       Vector3 wind_W = Vector3::Zero();
       if (run < size()) {
         Air& air = airs_[run];
@@ -152,6 +158,19 @@ void Batch::fillWind(std::size_t block, Tick tick, Tick count, Row* rows) {
         air.gusts.advance(0, air.seed, tick + i + 1, air.state);
       }
       for (int axis = 0; axis < 3; ++axis) step[axis].of[lane] = wind_W[axis];
+    }
+  }
+}
+
+/// Gusts at craft that were lost stay as they were at that tick. @param begin of the steps.
+void Batch::calm(std::size_t block, Tick begin, const BlockAir& around) {
+  for (std::size_t lane = 0; lane < lanesOf(block); ++lane) {
+    const std::size_t run = block * kBlockLanes + lane;
+    if (diverged_[run] == kNever) continue;
+    Air& air = airs_[run];
+    air.state = around.before[lane];
+    for (Tick at = begin; at < diverged_[run]; ++at) {
+      air.gusts.advance(0, air.seed, at + 1, air.state);
     }
   }
 }
@@ -166,34 +185,31 @@ void Batch::noteLost(std::size_t block, Tick begin) {
   }
 }
 
+/// Takes the events of a block's runs at a tick. @returns the tick of the next one, at most the
+/// end.
+Tick Batch::nextEvent(std::size_t block, Tick tick, Tick end) {
+  Tick next = airs_.empty() ? end : std::min(end, tick + kGustTicks);
+  for (std::size_t lane = 0; lane < lanesOf(block); ++lane) {
+    next = std::min(next, takeEvents(block * kBlockLanes + lane, tick));
+  }
+  return next;
+}
+
 void Batch::advanceBlock(std::size_t block, Tick end) {
-  std::array<Row, static_cast<std::size_t>(3 * kGustTicks)> winds;
-  std::array<GustState, kBlockLanes> gusts_before;
-  const std::size_t first = block * kBlockLanes;
+  const bool has_gusts = !airs_.empty();
+  BlockAir around;
   for (Tick tick = tick_; tick < end;) {
-    Tick next = airs_.empty() ? end : std::min(end, tick + kGustTicks);
-    for (std::size_t lane = 0; lane < lanesOf(block); ++lane) {
-      next = std::min(next, takeEvents(first + lane, tick));
-    }
+    const Tick next = nextEvent(block, tick, end);
     lanes::BlockSteps steps = {&blocks_[block], moreOf(block), wind_W_.data() + 3 * block, 0,
                                next - tick};
-    if (!airs_.empty()) {
-      for (std::size_t lane = 0; lane < lanesOf(block); ++lane) {
-        gusts_before[lane] = airs_[first + lane].state;
-      }
-      fillWind(block, tick, next - tick, winds.data());
-      steps.wind_W = winds.data();
+    if (has_gusts) {
+      blow(block, tick, steps.count, around);
+      steps.wind_W = around.wind_W.data();
       steps.wind_stride = 3;
     }
     advance_(kind_.plan, steps);
     noteLost(block, tick);
-    for (std::size_t lane = 0; !airs_.empty() && lane < lanesOf(block); ++lane) {
-      const Tick lost = diverged_[first + lane];
-      if (lost == kNever) continue;  // else the air stays as at that tick
-      Air& air = airs_[first + lane];
-      air.state = gusts_before[lane];
-      for (Tick at = tick; at < lost; ++at) air.gusts.advance(0, air.seed, at + 1, air.state);
-    }
+    if (has_gusts) calm(block, tick, around);
     tick = next;
   }
 }
@@ -214,11 +230,15 @@ void Batch::run(Tick ticks) {
   const std::size_t shares = (blocks_.size() + kBlocksAtOnce - 1) / kBlocksAtOnce;
   const std::size_t wanted = std::min(static_cast<std::size_t>(threads_), shares);
   std::vector<std::thread> helpers;
-  try {
-    while (helpers.size() + 1 < wanted) helpers.emplace_back(work);
-  } catch (const std::system_error&) {
-    // No more threads are to be had: those that there are do all of it.
-  }
+  const auto start_one = [&] {
+    try {
+      helpers.emplace_back(work);
+      return true;
+    } catch (const std::system_error&) {
+      return false;  // no more are to be had: those that there are do all of it
+    }
+  };
+  while (helpers.size() + 1 < wanted && start_one()) continue;
   work();
   for (std::thread& helper : helpers) helper.join();
   tick_ = end;
@@ -248,6 +268,20 @@ EngineStates Batch::actuators(std::size_t run) const {
     states[id] = {actuator.commanded, level, actuator.command_tick};
   }
   return states;
+}
+
+EngineReport Batch::actuatorReport(std::size_t run, std::size_t id) const {
+  const FloatingPointEnvironment environment;
+  const EngineState state = actuators(run)[id];
+  const EngineDynamics::Rule& rule = actuators_[run * kind_.plan.actuator_count + id].rule;
+  const Tick age = tickOf(run) - state.command_tick;
+  return {state.commanded,
+          state.thrust,
+          EngineDynamics::isSaturated(rule, state),
+          EngineDynamics::isTimedOut(rule, state, tickOf(run)),
+          state.command_tick == EngineState::kNever ? -1.0 : toSeconds(age * kind_.step_ns),
+          state.efficiency,
+          state.stuck};
 }
 
 Vector3 Batch::rotorsOf(std::size_t run) const {

@@ -118,8 +118,8 @@ class ForceNumbers {
 };
 static_assert(lanes::kPolarTerms == DragPolar::kTerms && lanes::kMostActuators == kMaxActuators);
 
-void writeConstants(const HovercraftModel& model, const ActuatorArray<EngineParameters>& parameters,
-                    std::int64_t step_ns, lanes::BlockConstants& to, std::size_t lane) {
+void writeConstants(const HovercraftModel& model, const EngineDynamics& dynamics,
+                    std::size_t actuator_count, lanes::BlockConstants& to, std::size_t lane) {
   LaneWriter(&to.inverse_mass, lane).number(model.mobility.perMass());
   LaneWriter(to.inverse_inertia_B, lane).matrix(model.mobility.inverseInertiaInBody());
   LaneWriter(to.engine_force, lane).matrix(model.engines.forceMap());
@@ -129,8 +129,7 @@ void writeConstants(const HovercraftModel& model, const ActuatorArray<EnginePara
   LaneWriter(to.drag_angular_linear, lane).vector(model.drag.angular_linear);
   LaneWriter(to.drag_angular_quadratic, lane).vector(model.drag.angular_quadratic);
   LaneWriter(to.weight_W, lane).vector(model.weight_W);
-  const EngineDynamics dynamics(parameters, step_ns);
-  for (std::size_t id = 0; id < parameters.size(); ++id) {
+  for (std::size_t id = 0; id < actuator_count; ++id) {
     const EngineDynamics::Rule& rule = dynamics.rule(id);
     to.half_decay[id].of[lane] = rule.half_decay;
     to.full_decay[id].of[lane] = rule.full_decay;
@@ -202,12 +201,13 @@ void requireSameKind(const BatchKind& kind, const BatchKind& first, const std::s
           "which actuators have a rotor");
 }
 
-void writeLane(const Scenario& scenario, const BatchKind& kind, const HovercraftModel& model,
-               const LanePlace& place) {
+void writeLane(const Scenario& scenario, const HovercraftModel& model,
+               const EngineDynamics& dynamics, const LanePlace& place) {
   const FloatingPointEnvironment environment;
   const VehicleScenario& craft = scenario.vehicles.front();
   const std::size_t lane = place.lane;
-  writeConstants(model, parametersOf(craft), kind.step_ns, place.block.constants, lane);
+  const EngineStates engines = initialActuators(craft);
+  writeConstants(model, dynamics, engines.size(), place.block.constants, lane);
   LaneWriter(place.wind_W, lane).vector(scenario.wind);
   ForceNumbers numbers;
   for (const Force& force : model.forces) std::visit(numbers, force);
@@ -226,7 +226,6 @@ void writeLane(const Scenario& scenario, const BatchKind& kind, const Hovercraft
   LaneWriter(state.q_v, lane).vector(body->orientation.v);
   LaneWriter(state.momentum_W, lane).vector(body->momentum_W);
   LaneWriter(state.angular_momentum_W, lane).vector(body->angular_momentum_W);
-  const EngineStates engines = initialActuators(craft);
   for (std::size_t id = 0; id < engines.size(); ++id) {
     state.level[id].of[lane] = engines[id].thrust;
   }

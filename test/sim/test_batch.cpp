@@ -74,11 +74,17 @@ class Beside {
   std::vector<bool> lost_;
 };
 
+std::vector<Scenario> scenariosOf(RandomCraft& craft, std::size_t count) {
+  std::vector<Scenario> scenarios;
+  scenarios.reserve(count);
+  for (std::size_t run = 0; run < count; ++run) scenarios.push_back(craft.scenario());
+  return scenarios;
+}
+
 /// Random craft whose commands come at ticks of their own; each tick is compared.
 void expectSameBits(RandomCraft craft, InstructionSet set, Tick ticks) {
-  std::vector<Scenario> scenarios;
   constexpr std::size_t kRuns = 21;  // not a whole number of blocks
-  for (std::size_t run = 0; run < kRuns; ++run) scenarios.push_back(craft.scenario());
+  const std::vector<Scenario> scenarios = scenariosOf(craft, kRuns);
   Beside both(scenarios, set);
   for (Tick tick = 0; tick < ticks; ++tick) {
     for (std::size_t run = 0; run < kRuns; ++run) {
@@ -103,12 +109,6 @@ void withEveryKind(Check check) {
       for (const Integrator integrator : integrators()) check(integrator, model, set);
     }
   }
-}
-
-std::vector<Scenario> scenariosOf(RandomCraft& craft, std::size_t count) {
-  std::vector<Scenario> scenarios;
-  for (std::size_t run = 0; run < count; ++run) scenarios.push_back(craft.scenario());
-  return scenarios;
 }
 
 std::string refusalOf(const std::vector<Scenario>& scenarios, const BatchOptions& options = {}) {
@@ -160,6 +160,15 @@ TEST(Batch, GustsHaveTheirBits) {
   });
 }
 
+/// Commands of some ticks to every run of both.
+void pushSome(Beside& both, RandomCraft& craft, Tick first, Tick end) {
+  for (std::size_t run = 0; run < both.batch().size(); ++run) {
+    for (Tick tick = first; tick < end; ++tick) {
+      if (const auto command = craft.command(tick)) both.push(run, *command);
+    }
+  }
+}
+
 TEST(Batch, ManyTicksAtOnceAreTheSameAsOneByOne) {
   for (const bool has_gusts : {false, true}) {
     RandomCraft craft(Integrator::kHeun, BodyModel::kSpatial, 4);
@@ -167,33 +176,34 @@ TEST(Batch, ManyTicksAtOnceAreTheSameAsOneByOne) {
     const std::vector<Scenario> scenarios = scenariosOf(craft, 300);
     for (const int threads : {1, 2, 5}) {
       Beside both(scenarios, availableInstructionSets().back(), threads);
-      for (Tick period = 0; period < 5; ++period) {
-        for (std::size_t run = 0; run < scenarios.size(); ++run) {
-          for (Tick tick = 70 * period; tick < 70 * (period + 1); ++tick) {
-            if (const auto command = craft.command(tick)) both.push(run, *command);
-          }
-        }
-        ASSERT_EQ(both.differingAfter(70), 0U) << threads << " threads, period " << period;
+      for (Tick first = 0; first < 350; first += 70) {
+        pushSome(both, craft, first, first + 70);
+        ASSERT_EQ(both.differingAfter(70), 0U) << threads << " threads, from tick " << first;
       }
     }
   }
 }
 
-TEST(Batch, WhatDecaysEndsAtZeroAsInASimulation) {
+/// Craft whose momenta and thrusts decay to nothing within a second.
+std::vector<Scenario> heavilyDamped() {
   RandomCraft craft(Integrator::kHeun, BodyModel::kPlanar, 5);
   std::vector<Scenario> scenarios = scenariosOf(craft, 9);
   for (Scenario& scenario : scenarios) {
     scenario.wind = scenario.gravity = Vector3::Zero();
     VehicleScenario& vehicle = scenario.vehicles.front();
-    vehicle.drag.linear = vehicle.drag.angular_linear =
-        Vector3::Constant(400.0 * vehicle.mass_properties.mass);
-    vehicle.drag.angular_linear *= 0.01;
-    vehicle.drag.quadratic = vehicle.drag.angular_quadratic = Vector3::Zero();
+    vehicle.drag = {};
+    vehicle.drag.linear = Vector3::Constant(400.0 * vehicle.mass_properties.mass);
+    vehicle.drag.angular_linear = 0.01 * vehicle.drag.linear;
     for (EngineParameters& engine : vehicle.engines) {
       engine.time_constant = 0.001;
       engine.timeout_ns = 5000000;
     }
   }
+  return scenarios;
+}
+
+TEST(Batch, WhatDecaysEndsAtZeroAsInASimulation) {
+  const std::vector<Scenario> scenarios = heavilyDamped();
   for (const InstructionSet set : availableInstructionSets()) {
     Beside both(scenarios, set);
     for (std::size_t run = 0; run < scenarios.size(); ++run) {
@@ -207,31 +217,38 @@ TEST(Batch, WhatDecaysEndsAtZeroAsInASimulation) {
   }
 }
 
+/// Four of twenty craft are too stiff for their steps.
+std::vector<Scenario> someTooStiff(bool has_gusts) {
+  RandomCraft craft(Integrator::kRungeKutta4, BodyModel::kSpatial, 6);
+  if (has_gusts) craft.withGusts();
+  std::vector<Scenario> scenarios = scenariosOf(craft, 20);
+  for (const std::size_t run : {1U, 2U, 9U, 19U}) {
+    Drag& drag = scenarios[run].vehicles.front().drag;
+    drag.linear = Vector3::Constant(2e4 * static_cast<double>(run));
+    drag.quadratic = Vector3::Constant(1e3);
+  }
+  return scenarios;
+}
+
+/// @param ticks that are made at once.
+void expectFourLost(const std::vector<Scenario>& scenarios, InstructionSet set, Tick ticks) {
+  Beside both(scenarios, set);
+  for (Tick tick = 0; tick < 200; tick += ticks) {
+    for (std::size_t run = 0; run < scenarios.size(); ++run) {
+      both.push(run, {tick + ticks / 2, 0, kAllEngines, Vector3(1.0, 0.5, 0.2)});
+    }
+    ASSERT_EQ(both.differingAfter(ticks), 0U) << instructionSetName(set) << ", tick " << tick;
+  }
+  EXPECT_EQ(both.lostCount(), 4);
+  EXPECT_EQ(both.batch().tick(), 200);
+  EXPECT_FALSE(both.batch().divergedAt(0).has_value());
+}
+
 TEST(Batch, ARunThatDivergesStaysAsItWasAndDisturbsNoOther) {
   for (const bool has_gusts : {false, true}) {
-    RandomCraft craft(Integrator::kRungeKutta4, BodyModel::kSpatial, 6);
-    if (has_gusts) craft.withGusts();
-    std::vector<Scenario> scenarios = scenariosOf(craft, 20);
-    for (const std::size_t run : {1U, 2U, 9U, 19U}) {
-      VehicleScenario& vehicle = scenarios[run].vehicles.front();
-      // Too stiff for a step of 1 ms.
-      vehicle.drag.linear = Vector3::Constant(2e4 * static_cast<double>(run));
-      vehicle.drag.quadratic = Vector3::Constant(1e3);
-    }
+    const std::vector<Scenario> scenarios = someTooStiff(has_gusts);
     for (const InstructionSet set : availableInstructionSets()) {
-      for (const Tick ticks : {1, 50}) {
-        Beside both(scenarios, set);
-        for (Tick tick = 0; tick < 200; tick += ticks) {
-          for (std::size_t run = 0; run < scenarios.size(); ++run) {
-            both.push(run, {tick + ticks / 2, 0, kAllEngines, Vector3(1.0, 0.5, 0.2)});
-          }
-          ASSERT_EQ(both.differingAfter(ticks), 0U)
-              << instructionSetName(set) << ", after tick " << tick;
-        }
-        EXPECT_EQ(both.lostCount(), 4);
-        EXPECT_EQ(both.batch().tick(), 200);
-        EXPECT_FALSE(both.batch().divergedAt(0).has_value());
-      }
+      for (const Tick ticks : {1, 50}) expectFourLost(scenarios, set, ticks);
     }
   }
 }

@@ -99,7 +99,7 @@ class RandomCraft {
     if (!has_actuators_) return engine;
     if (chance(0.4)) engine.command.unit = CommandUnit::kNormalized;
     if (chance(0.4)) engine.command.table = {{-1.0, -0.5}, {0.2, 0.1}, {uniform(0.5, 2.0), 3.0}};
-    engine.rotor = {uniform(1e-6, 1e-4), uniform(100.0, 900.0), chance(0.5) ? 1.0 : -1.0};
+    engine.rotor = {uniform(1e-4, 1e-3), uniform(100.0, 900.0), chance(0.5) ? 1.0 : -1.0};
     return engine;
   }
 
@@ -110,7 +110,7 @@ class RandomCraft {
     actuator.motion = engine();
     actuator.initial = uniform(0.0, 0.4);
     actuator.free_speed = chance(0.3) ? 0.0 : uniform(2.0, 20.0);
-    actuator.diameter = uniform(0.1, 0.3);
+    actuator.diameter = uniform(0.5, 1.2);
     actuator.thrust_coefficients = vector(0.5);
     actuator.torque_coefficients = vector(0.1);
     actuator.fan = fan;

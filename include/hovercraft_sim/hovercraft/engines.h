@@ -122,11 +122,7 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
 
   /// The last command lies beyond the engine's limits.
   bool isSaturated(int engine, const EngineState& state) const {
-    const Rule& limits = rules_[static_cast<std::size_t>(engine)];
-    if (isMapped(limits, state)) {
-      return limits.map->exceeds(state.commanded, limits.min_thrust, limits.max_thrust);
-    }
-    return state.commanded < limits.min_thrust || state.commanded > limits.max_thrust;
+    return isSaturated(rules_[static_cast<std::size_t>(engine)], state);
   }
 
   /// The thrust that the engine strives for in the step that begins at `tick`, N.
@@ -134,7 +130,19 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     return demandOf(rules_[static_cast<std::size_t>(engine)], state, tick);
   }
 
-  /// The same by the rule alone, for who keeps it elsewhere.
+  const Rule& rule(std::size_t id) const { return rules_[id]; }
+
+  /// The same of a rule that is kept elsewhere.
+  static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
+    return state.command_tick != EngineState::kNever &&
+           tick - state.command_tick >= rule.timeout_ticks;
+  }
+  static bool isSaturated(const Rule& limits, const EngineState& state) {
+    if (isMapped(limits, state)) {
+      return limits.map->exceeds(state.commanded, limits.min_thrust, limits.max_thrust);
+    }
+    return state.commanded < limits.min_thrust || state.commanded > limits.max_thrust;
+  }
   static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
     if (state.stuck) return state.thrust;
     if (isTimedOut(rule, state, tick)) return 0.0;
@@ -143,7 +151,6 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
                              : state.commanded;
     return state.efficiency * std::clamp(level, rule.min_thrust, rule.max_thrust);
   }
-  const Rule& rule(std::size_t id) const { return rules_[id]; }
 
   /// Thrusts in the step that begins at `tick`. Without lag the thrust is the demand from the start
   /// of the step on; with lag it is the exact solution of T' = (demand - T)/time_constant at each
@@ -156,11 +163,6 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
   /// Before the first command what is commanded is a level.
   static bool isMapped(const Rule& rule, const EngineState& state) {
     return rule.map != nullptr && state.command_tick != EngineState::kNever;
-  }
-
-  static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
-    return state.command_tick != EngineState::kNever &&
-           tick - state.command_tick >= rule.timeout_ticks;
   }
 
   std::int64_t step_ns_;

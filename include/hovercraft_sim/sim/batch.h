@@ -64,6 +64,8 @@ class HOVERCRAFT_PUBLIC Batch {
   Tick tickOf(std::size_t run) const { return divergedAt(run).value_or(tick_); }
   /// As Simulation::motion().
   Motion motion(std::size_t run) const;
+  /// As Simulation::engineReport(). @param id of the actuator.
+  EngineReport actuatorReport(std::size_t run, std::size_t id) const;
   /// As Simulation::hash().
   std::uint64_t hash(std::size_t run) const;
 
@@ -77,10 +79,14 @@ class HOVERCRAFT_PUBLIC Batch {
     Vector3 mean_W;
   };
 
+  struct BlockAir;
+
   void growBlocks();
   Tick takeEvents(std::size_t run, Tick tick);
   void advanceBlock(std::size_t block, Tick end);
-  void fillWind(std::size_t block, Tick tick, Tick count, lanes::Row* rows);
+  Tick nextEvent(std::size_t block, Tick tick, Tick end);
+  void blow(std::size_t block, Tick tick, Tick count, BlockAir& around);
+  void calm(std::size_t block, Tick begin, const BlockAir& around);
   void noteLost(std::size_t block, Tick begin);
   const lanes::Row* moreOf(std::size_t block) const { return more_.data() + block * kind_.rows; }
   std::size_t lanesOf(std::size_t block) const;

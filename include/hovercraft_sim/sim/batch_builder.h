@@ -47,8 +47,8 @@ struct LanePlace {
 };
 
 /// Writes constants and the initial state of a run.
-void writeLane(const Scenario& scenario, const BatchKind& kind, const HovercraftModel& model,
-               const LanePlace& place);
+void writeLane(const Scenario& scenario, const HovercraftModel& model,
+               const EngineDynamics& dynamics, const LanePlace& place);
 
 /// A block of craft that stand and on which nothing acts.
 lanes::Block idleBlock();
