@@ -258,21 +258,23 @@ RigidBodyState<Quaternion> Batch::body(std::size_t run) const {
           vectorOf(state.angular_momentum_W, lane)};
 }
 
+EngineState Batch::actuatorState(std::size_t run, std::size_t id) const {
+  const LaneActuator& actuator = actuators_[run * kind_.plan.actuator_count + id];
+  const double level = blocks_[run / kBlockLanes].state.level[id].of[run % kBlockLanes];
+  return {actuator.commanded, level, actuator.command_tick};
+}
+
 EngineStates Batch::actuators(std::size_t run) const {
   const std::size_t count = kind_.plan.actuator_count;
   EngineStates states;
   states.resize(count);
-  for (std::size_t id = 0; id < count; ++id) {
-    const LaneActuator& actuator = actuators_[run * count + id];
-    const double level = blocks_[run / kBlockLanes].state.level[id].of[run % kBlockLanes];
-    states[id] = {actuator.commanded, level, actuator.command_tick};
-  }
+  for (std::size_t id = 0; id < count; ++id) states[id] = actuatorState(run, id);
   return states;
 }
 
 EngineReport Batch::actuatorReport(std::size_t run, std::size_t id) const {
   const FloatingPointEnvironment environment;
-  const EngineState state = actuators(run)[id];
+  const EngineState state = actuatorState(run, id);
   const EngineDynamics::Rule& rule = actuators_[run * kind_.plan.actuator_count + id].rule;
   const Tick age = tickOf(run) - state.command_tick;
   return {state.commanded,
@@ -285,7 +287,6 @@ EngineReport Batch::actuatorReport(std::size_t run, std::size_t id) const {
 }
 
 Vector3 Batch::rotorsOf(std::size_t run) const {
-  const EngineStates states = actuators(run);
   const std::size_t lane = run % kBlockLanes;
   Vector3 sum = Vector3::Zero();
   for (std::size_t i = 0; i < kind_.plan.rotor_count; ++i) {
@@ -293,7 +294,7 @@ Vector3 Batch::rotorsOf(std::size_t run) const {
     const Row* const rows = moreOf(run / kBlockLanes) + step.first_row;
     const Rotor rotor = {step.id, step.by_square_root, rows[0].of[lane], 0.0,
                          vectorOf(rows + 1, lane)};
-    sum += rotor.angularMomentum(states[rotor.id].thrust) * rotor.axis;
+    sum += rotor.angularMomentum(actuatorState(run, rotor.id).thrust) * rotor.axis;
   }
   return sum;
 }

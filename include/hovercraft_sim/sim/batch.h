@@ -90,6 +90,7 @@ class HOVERCRAFT_PUBLIC Batch {
   void noteLost(std::size_t block, Tick begin);
   const lanes::Row* moreOf(std::size_t block) const { return more_.data() + block * kind_.rows; }
   std::size_t lanesOf(std::size_t block) const;
+  EngineState actuatorState(std::size_t run, std::size_t id) const;
   Vector3 rotorsOf(std::size_t run) const;
 
   BatchKind kind_;

@@ -5,7 +5,7 @@ from .. import _arrays, _core
 from .._simulation import Scenario
 from .flight import Failure, Flight
 
-MOST_BYTES = 64 << 20  # of what is put out of runs that fly together
+MOST_BYTES = 16 << 20  # of what is put out of runs that fly together; it is there twice for a moment
 MOST_RUNS = 256        # more do not fly faster
 
 
