@@ -110,7 +110,7 @@ std::vector<std::uint64_t> bitsOf(const BlockState& state) {
 }
 
 std::vector<std::uint64_t> bitsAfter(Advance advance, const StepPlan& plan, std::uint32_t seed) {
-  constexpr std::size_t kMostRows = 100;
+  constexpr std::size_t kMostRows = 102;  // of planOf()
   constexpr std::size_t kSteps = 40;
   RandomBlock random(seed);
   Block block = random.block();
