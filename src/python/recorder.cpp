@@ -45,6 +45,7 @@ ActuatorRow actuatorRow(const hovercraft::EngineReport& report) {
 std::vector<ActuatorRow> actuatorRows(const Simulation& simulation, std::size_t vehicle) {
   std::vector<ActuatorRow> rows;
   const std::size_t count = simulation.state().engines[vehicle].size();
+  rows.reserve(count);
   for (std::size_t id = 0; id < count; ++id) {
     rows.push_back(actuatorRow(simulation.engineReport(vehicle, static_cast<int>(id))));
   }
