@@ -137,6 +137,21 @@ void writeConstants(const HovercraftModel& model, const EngineDynamics& dynamics
   }
 }
 
+/// Whether a craft moves in the plane and each constant is within bounds (lane_planar.h).
+bool isBoundedPlanar(const Scenario& scenario, const HovercraftModel& model) {
+  if (scenario.model != BodyModel::kPlanar) return false;
+  const auto is_bounded = [](const auto& numbers) {
+    return numbers.cwiseAbs().maxCoeff() <= lanes::kMostOfPlanar;  // a comparison: not of NaN
+  };
+  const GustParameters gusts = scenario.gusts.value_or(GustParameters());
+  const Drag& drag = model.drag;
+  return is_bounded(Vector3(gusts.along.sigma, gusts.across.sigma, gusts.vertical.sigma)) &&
+         is_bounded(model.engines.forceMap()) && is_bounded(model.engines.torqueMap()) &&
+         is_bounded(drag.linear) && is_bounded(drag.quadratic) && is_bounded(drag.angular_linear) &&
+         is_bounded(drag.angular_quadratic) && is_bounded(model.weight_W) &&
+         is_bounded(scenario.wind);
+}
+
 }  // namespace
 
 BatchKind batchKindOf(const Scenario& scenario) {
@@ -208,6 +223,8 @@ void writeLane(const Scenario& scenario, const HovercraftModel& model,
   const std::size_t lane = place.lane;
   const EngineStates engines = initialActuators(craft);
   writeConstants(model, dynamics, engines.size(), place.block.constants, lane);
+  bool& is_planar = place.block.constants.is_planar;
+  is_planar = is_planar && isBoundedPlanar(scenario, model);
   LaneWriter(place.wind_W, lane).vector(scenario.wind);
   ForceNumbers numbers;
   for (const Force& force : model.forces) std::visit(numbers, force);
@@ -233,6 +250,7 @@ void writeLane(const Scenario& scenario, const HovercraftModel& model,
 
 lanes::Block idleBlock() {
   lanes::Block block = {};
+  block.constants.is_planar = true;
   for (std::size_t lane = 0; lane < lanes::kBlockLanes; ++lane) {
     block.state.q_s.of[lane] = 1.0;
     block.state.moves.of[lane] = -1;

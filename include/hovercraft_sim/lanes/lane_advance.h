@@ -1,5 +1,6 @@
 #pragma once
 
+#include "hovercraft_sim/lanes/lane_planar.h"
 #include "hovercraft_sim/lanes/lane_step.h"
 #include "hovercraft_sim/math/tolerances.h"
 
@@ -38,6 +39,16 @@ template <class Isa>
           choose<Isa>(mask, yes.z, no.z)};
 }
 
+template <class Isa>
+[[gnu::always_inline]] inline PlanarMotion<Isa> chosen(MaskOf<Isa> mask,
+                                                       const PlanarMotion<Isa>& yes,
+                                                       const PlanarMotion<Isa>& no) {
+  return {choose<Isa>(mask, yes.x, no.x),     choose<Isa>(mask, yes.y, no.y),
+          choose<Isa>(mask, yes.s, no.s),     choose<Isa>(mask, yes.z, no.z),
+          choose<Isa>(mask, yes.P_x, no.P_x), choose<Isa>(mask, yes.P_y, no.P_y),
+          choose<Isa>(mask, yes.L_z, no.L_z)};
+}
+
 /// Where the mask is none what was there before.
 template <class Isa>
 [[gnu::always_inline]] inline void keep(MaskOf<Isa> mask, const PackState<Isa>& before,
@@ -53,22 +64,29 @@ template <class Isa>
   }
 }
 
+/// An actuator's levels over a step. @param Loads StepLoads or PlanarLoads.
+template <class Isa, class Loads>
+[[gnu::always_inline]] inline void turnActuator(const Block& block, std::size_t i,
+                                                std::size_t first, NumberOf<Isa> level,
+                                                Loads& loads) {
+  const BlockConstants& constants = block.constants;
+  const NumberOf<Isa> demanded = load<Isa>(block.demand[i], first);
+  NumberOf<Isa> lead = where<Isa>(load<Isa>(constants.lags[i], first), level - demanded);
+  lead = where<Isa>(~(absolute<Isa>(lead) < same<Isa>(kSettledThrust)), lead);
+  loads.start.levels[i] = demanded + lead;
+  loads.middle.levels[i] = demanded + lead * load<Isa>(constants.half_decay[i], first);
+  loads.end.levels[i] = demanded + lead * load<Isa>(constants.full_decay[i], first);
+}
+
 /// Levels over a step, and what the engines make of them.
 template <class Isa, bool kHasMore>
 [[gnu::always_inline]] inline void turnActuators(const PackSystem<Isa, kHasMore>& system,
                                                  const Block& block, bool has_middle,
                                                  const PackState<Isa>& state,
                                                  StepLoads<Isa>& loads) {
-  const std::size_t first = system.first;
   const std::size_t count = kHasMore ? system.plan.actuator_count : 3;
-  const BlockConstants& constants = block.constants;
   for (std::size_t i = 0; i < count; ++i) {
-    const NumberOf<Isa> demanded = load<Isa>(block.demand[i], first);
-    NumberOf<Isa> lead = where<Isa>(load<Isa>(constants.lags[i], first), state.level[i] - demanded);
-    lead = where<Isa>(~(absolute<Isa>(lead) < same<Isa>(kSettledThrust)), lead);
-    loads.start.levels[i] = demanded + lead;
-    loads.middle.levels[i] = demanded + lead * load<Isa>(constants.half_decay[i], first);
-    loads.end.levels[i] = demanded + lead * load<Isa>(constants.full_decay[i], first);
+    turnActuator<Isa>(block, i, system.first, state.level[i], loads);
   }
   loads.start.engines_B = system.enginesWrench(loads.start.levels);
   if (has_middle) loads.middle.engines_B = system.enginesWrench(loads.middle.levels);
@@ -76,11 +94,12 @@ template <class Isa, bool kHasMore>
 }
 
 template <class Isa>
+[[gnu::always_inline]] inline NumberOf<Isa> settled(NumberOf<Isa> momentum) {
+  return where<Isa>(~(absolute<Isa>(momentum) < same<Isa>(kSettledMomentum)), momentum);
+}
+template <class Isa>
 [[gnu::always_inline]] inline Vector<Isa> settled(const Vector<Isa>& momentum) {
-  const NumberOf<Isa> least = same<Isa>(kSettledMomentum);
-  return {where<Isa>(~(absolute<Isa>(momentum.x) < least), momentum.x),
-          where<Isa>(~(absolute<Isa>(momentum.y) < least), momentum.y),
-          where<Isa>(~(absolute<Isa>(momentum.z) < least), momentum.z)};
+  return {settled<Isa>(momentum.x), settled<Isa>(momentum.y), settled<Isa>(momentum.z)};
 }
 
 /// Renormalised and settled. @returns where the motion is sound.
@@ -94,6 +113,23 @@ template <class Isa>
   const Vector<Isa> sum = (motion.p + motion.P) + motion.L;
   const Number finite = absolute<Isa>((sum.x + sum.y) + sum.z);
   const Number length = absolute<Isa>(squaredNorm(motion.q) - same<Isa>(1.0));
+  return (finite < same<Isa>(__builtin_inf())) & (length < same<Isa>(kUnitLength));
+}
+
+/// The same in the plane. @param p_z m.
+template <class Isa>
+[[gnu::always_inline]] inline MaskOf<Isa> finish(PlanarMotion<Isa>& motion, NumberOf<Isa> p_z) {
+  using Number = NumberOf<Isa>;
+  const Number norm = Isa::sqrt(motion.s * motion.s + motion.z * motion.z);
+  const Number factor = same<Isa>(1.0) / norm;
+  motion.s = factor * motion.s;
+  motion.z = factor * motion.z;
+  motion.P_x = settled<Isa>(motion.P_x);
+  motion.P_y = settled<Isa>(motion.P_y);
+  motion.L_z = settled<Isa>(motion.L_z);
+  const Number sum = (motion.x + motion.P_x) + (motion.y + motion.P_y);
+  const Number finite = absolute<Isa>(sum + (p_z + motion.L_z));
+  const Number length = absolute<Isa>((motion.s * motion.s + motion.z * motion.z) - same<Isa>(1.0));
   return (finite < same<Isa>(__builtin_inf())) & (length < same<Isa>(kUnitLength));
 }
 
@@ -136,9 +172,68 @@ template <class Isa, Method kMethod, bool kHasMore>
   state.write(block.state, first, count);
 }
 
+/// advancePack() of craft that move in the plane (isPlanar()).
+template <class Isa, Method kMethod>
+[[gnu::noinline]] void advancePlanar(const StepPlan& plan, const BlockSteps& steps,
+                                     std::size_t first) {
+  using Number = NumberOf<Isa>;
+  Block& block = *steps.block;
+  BlockState& state = block.state;
+  PlanarSystem<Isa> system = {plan, block.constants, first, load<Isa>(steps.wind_W[0], first),
+                              load<Isa>(steps.wind_W[1], first)};
+  Number level[3];
+  for (std::size_t i = 0; i < 3; ++i) level[i] = load<Isa>(state.level[i], first);
+  PlanarMotion<Isa> y = {load<Isa>(state.p_WB[0], first),
+                         load<Isa>(state.p_WB[1], first),
+                         load<Isa>(state.q_s, first),
+                         load<Isa>(state.q_v[2], first),
+                         load<Isa>(state.momentum_W[0], first),
+                         load<Isa>(state.momentum_W[1], first),
+                         load<Isa>(state.angular_momentum_W[2], first)};
+  const Number p_z = load<Isa>(state.p_WB[2], first);
+  MaskOf<Isa> moves = load<Isa>(state.moves, first);
+  PlanarLoads<Isa> loads;
+  for (std::int64_t made = 0; made < steps.count; ++made) {
+    const std::size_t blown = static_cast<std::size_t>(made) * steps.wind_stride;
+    if (blown > 0) {
+      system.wind_x = load<Isa>(steps.wind_W[blown], first);
+      system.wind_y = load<Isa>(steps.wind_W[blown + 1], first);
+    }
+    for (std::size_t i = 0; i < 3; ++i) turnActuator<Isa>(block, i, first, level[i], loads);
+    system.loadEngines(loads.start);
+    if (kMethod == Method::kRungeKutta4) system.loadEngines(loads.middle);
+    system.loadEngines(loads.end);
+    PlanarMotion<Isa> next = steppedMotion<kMethod>(system, y, loads);
+    const MaskOf<Isa> sound = finish<Isa>(next, p_z) & moves;
+    Number turned[3] = {loads.end.levels[0], loads.end.levels[1], loads.end.levels[2]};
+    if (!Isa::allOf(sound)) {
+      next = chosen<Isa>(sound, next, y);
+      for (std::size_t i = 0; i < 3; ++i) turned[i] = choose<Isa>(sound, turned[i], level[i]);
+      noteLost<Isa>(sound, first, made, state);
+      moves = sound;
+    }
+    y = next;
+    for (std::size_t i = 0; i < 3; ++i) level[i] = turned[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) store<Isa>(level[i], state.level[i], first);
+  store<Isa>(y.x, state.p_WB[0], first);
+  store<Isa>(y.y, state.p_WB[1], first);
+  store<Isa>(y.s, state.q_s, first);
+  store<Isa>(y.z, state.q_v[2], first);
+  store<Isa>(y.P_x, state.momentum_W[0], first);
+  store<Isa>(y.P_y, state.momentum_W[1], first);
+  store<Isa>(y.L_z, state.angular_momentum_W[2], first);
+}
+
 template <class Isa, Method kMethod>
 inline void advanceBlock(const StepPlan& plan, const BlockSteps& steps) {
   for (std::size_t first = 0; first < kBlockLanes; first += Isa::kWidth) {
+    if constexpr (kMethod != Method::kSemiImplicitEuler) {
+      if (!plan.hasMoreForces() && plan.actuator_count == 3 && isPlanar<Isa>(*steps.block, first)) {
+        advancePlanar<Isa, kMethod>(plan, steps, first);
+        continue;
+      }
+    }
     if (plan.hasMoreForces() || plan.actuator_count > 3) {
       advancePack<Isa, kMethod, true>(plan, steps, first);
     } else {

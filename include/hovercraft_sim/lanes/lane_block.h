@@ -15,6 +15,10 @@ constexpr std::size_t kBlockLanes = 8;
 /// Actuators of a craft, the engines among them.
 constexpr std::size_t kMostActuators = 11;
 
+/// Bound on constants and levels of craft in the plane, so that what their steps leave out is
+/// finite (lane_planar.h).
+constexpr double kMostOfPlanar = 1e100;
+
 /// One number of each craft of a block.
 struct alignas(64) Row {
   double of[kBlockLanes];
@@ -42,6 +46,7 @@ struct BlockConstants {
   Row half_decay[kMostActuators];
   Row full_decay[kMostActuators];
   MaskRow lags[kMostActuators];
+  bool is_planar;  // of the planar model, and no constant is beyond kMostOfPlanar
 };
 
 /// What a craft is at a tick: RigidBodyState of a quaternion, and levels of its actuators.
