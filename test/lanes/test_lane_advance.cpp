@@ -78,6 +78,16 @@ class RandomBlock {
   std::mt19937 random_;
 };
 
+/// The same in the plane. @param is_known whether its steps may leave out what is 0.
+Block planarBlock(std::uint32_t seed, bool is_known) {
+  Block block = RandomBlock(seed).block();
+  for (std::size_t i = 0; i < 8; ++i) block.constants.inverse_inertia_B[i] = {};
+  block.state.momentum_W[2] = block.state.angular_momentum_W[0] = {};
+  block.state.angular_momentum_W[1] = {};
+  block.constants.is_planar = is_known;
+  return block;
+}
+
 /// A force of each kind and two rotors, or none of them.
 StepPlan planOf(Method method, bool has_more) {
   StepPlan plan;
@@ -147,6 +157,30 @@ TEST(LaneAdvance, EightAtATimeHaveTheBitsOfOneAtATime) {
       EXPECT_EQ(bitsAfter(advanceBlock<Eight, Method::kHeun>, plan, seed),
                 bitsAfter(kAdvanceScalar, plan, seed))
           << seed;
+    }
+  }
+}
+
+TEST(LaneAdvance, InThePlaneWhatIsLeftOutChangesNoBit) {
+  std::vector<Row> wind(3);
+  RandomBlock(7).fill(wind.data(), wind.size(), -2.0, 2.0);
+  for (const Method method : {Method::kEuler, Method::kHeun, Method::kRungeKutta4}) {
+    StepPlan plan = planOf(method, false);
+    plan.free_rotation[0] = plan.free_rotation[1] = 0.0;
+    for (std::uint32_t seed = 1; seed < 50; ++seed) {
+      Block whole = planarBlock(seed, false);
+      kAdvanceScalar(plan, {&whole, nullptr, wind.data(), 0, 40});
+      const auto expected = bitsOf(whole.state);
+      const auto advanced = [&](Advance advance) {
+        Block block = planarBlock(seed, true);
+        advance(plan, {&block, nullptr, wind.data(), 0, 40});
+        return bitsOf(block.state);
+      };
+      for (const InstructionSet set : availableInstructionSets()) {
+        ASSERT_EQ(advanced(advanceBy(set)), expected) << instructionSetName(set) << ", " << seed;
+      }
+      if (method != Method::kHeun) continue;
+      ASSERT_EQ(advanced(advanceBlock<Eight, Method::kHeun>), expected) << seed;
     }
   }
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
@@ -218,8 +219,8 @@ TEST(Batch, WhatDecaysEndsAtZeroAsInASimulation) {
 }
 
 /// Four of twenty craft are too stiff for their steps.
-std::vector<Scenario> someTooStiff(bool has_gusts) {
-  RandomCraft craft(Integrator::kRungeKutta4, BodyModel::kSpatial, 6);
+std::vector<Scenario> someTooStiff(BodyModel model, bool has_gusts) {
+  RandomCraft craft(Integrator::kRungeKutta4, model, 6);
   if (has_gusts) craft.withGusts();
   std::vector<Scenario> scenarios = scenariosOf(craft, 20);
   for (const std::size_t run : {1U, 2U, 9U, 19U}) {
@@ -245,11 +246,48 @@ void expectFourLost(const std::vector<Scenario>& scenarios, InstructionSet set, 
 }
 
 TEST(Batch, ARunThatDivergesStaysAsItWasAndDisturbsNoOther) {
-  for (const bool has_gusts : {false, true}) {
-    const std::vector<Scenario> scenarios = someTooStiff(has_gusts);
-    for (const InstructionSet set : availableInstructionSets()) {
-      for (const Tick ticks : {1, 50}) expectFourLost(scenarios, set, ticks);
+  for (const BodyModel model : {BodyModel::kPlanar, BodyModel::kSpatial}) {
+    for (const bool has_gusts : {false, true}) {
+      const std::vector<Scenario> scenarios = someTooStiff(model, has_gusts);
+      for (const InstructionSet set : availableInstructionSets()) {
+        for (const Tick ticks : {1, 50}) expectFourLost(scenarios, set, ticks);
+      }
     }
+  }
+}
+
+/// Craft in the plane with zeros of either sign and numbers near the greatest there are.
+std::vector<Scenario> extremes() {
+  RandomCraft craft(Integrator::kHeun, BodyModel::kPlanar, 8);
+  std::vector<Scenario> scenarios = scenariosOf(craft, 64);
+  std::size_t run = 0;
+  for (Scenario& scenario : scenarios) {
+    VehicleScenario& vehicle = scenario.vehicles.front();
+    const std::size_t kind = run++ / 8;  // a block of each
+    const double great = std::pow(10.0, 40.0 * static_cast<double>(run % 8));
+    if (kind == 0) vehicle.drag.linear.z() = vehicle.drag.quadratic.z() = great;
+    if (kind == 1) vehicle.drag.angular_quadratic.x() = great;
+    if (kind == 2) vehicle.initial_v_WB = {great, -0.0, -0.0};
+    if (kind == 3) vehicle.initial_w_WB = {-0.0, -0.0, great};
+    if (kind == 4) vehicle.engines[0].max_thrust = great;
+    if (kind == 5) vehicle.initial_p_WB = {-0.0, great, -0.0};
+    if (kind == 6) vehicle.initial_rpy = vehicle.initial_w_WB = {-0.0, -0.0, -0.0};
+    if (kind == 7) scenario.wind.z() = great;
+  }
+  return scenarios;
+}
+
+TEST(Batch, InThePlaneExtremesHaveTheirBits) {
+  const std::vector<Scenario> scenarios = extremes();
+  for (const InstructionSet set : availableInstructionSets()) {
+    Beside both(scenarios, set);
+    for (Tick tick = 0; tick < 100; ++tick) {
+      for (std::size_t run = 0; tick == 0 && run < scenarios.size(); ++run) {
+        both.push(run, {0, 0, kAllEngines, Vector3(1e300, 1.0, -1e300)});
+      }
+      ASSERT_EQ(both.differingAfter(1), 0U) << instructionSetName(set) << ", " << tick;
+    }
+    EXPECT_GT(both.lostCount(), 5);
   }
 }
 
