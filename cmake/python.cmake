@@ -49,7 +49,7 @@ if(python_found)
   file(MAKE_DIRECTORY ${python_package}/studies)
   set(shared ${PROJECT_SOURCE_DIR}/src/python/command_list.cpp ${PROJECT_SOURCE_DIR}/src/python/rows.cpp)
   hovercraft_extension(_core hovercraft_core ${shared} ${PROJECT_SOURCE_DIR}/src/python/core_module.cpp ${PROJECT_SOURCE_DIR}/src/python/held_scenario.cpp
-    ${PROJECT_SOURCE_DIR}/src/python/recorder.cpp ${PROJECT_SOURCE_DIR}/src/python/stepped_simulation.cpp ${PROJECT_SOURCE_DIR}/src/python/studies.cpp)
+    ${PROJECT_SOURCE_DIR}/src/python/recorder.cpp ${PROJECT_SOURCE_DIR}/src/python/stepped_batch.cpp ${PROJECT_SOURCE_DIR}/src/python/stepped_simulation.cpp ${PROJECT_SOURCE_DIR}/src/python/studies.cpp)
   hovercraft_extension(_bags hovercraft_ros ${shared} ${PROJECT_SOURCE_DIR}/src/python/bags_module.cpp)
   file(GLOB python_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/python/hovercraft_core/*.py ${PROJECT_SOURCE_DIR}/python/hovercraft_core/*.pyi
     ${PROJECT_SOURCE_DIR}/python/hovercraft_core/py.typed)

@@ -5,10 +5,11 @@ quaternions x, y, z, w that turn components in B into components in W. What is w
 TypeError where it is of a type that cannot be meant). Nothing of ROS is loaded but for bags.
 """
 from ._bag_reader import read_bag
+from ._batch import Batch
 from ._core import version
 from ._queries import closest, compare, mass_properties, write_bag
 from ._simulation import Run, Saved, Scenario, Simulation
 from .env import Box, HovercraftEnv
 
-__all__ = ["Box", "HovercraftEnv", "Run", "Saved", "Scenario", "Simulation", "closest", "compare", "mass_properties", "read_bag",
-           "version", "write_bag"]
+__all__ = ["Batch", "Box", "HovercraftEnv", "Run", "Saved", "Scenario", "Simulation", "closest", "compare", "mass_properties",
+           "read_bag", "version", "write_bag"]

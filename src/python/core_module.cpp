@@ -17,6 +17,7 @@
 #include "hovercraft_sim/python/held_scenario.h"
 #include "hovercraft_sim/python/recorder.h"
 #include "hovercraft_sim/python/rows.h"
+#include "hovercraft_sim/python/stepped_batch.h"
 #include "hovercraft_sim/python/stepped_simulation.h"
 #include "hovercraft_sim/python/studies.h"
 #include "hovercraft_sim/sim/closest_report.h"
@@ -355,6 +356,7 @@ PYBIND11_MODULE(_core, module) {
   registerRows();
   bindScenario(module);
   bindSimulation(module);
+  bindBatch(module, lookAtSignals);
   bindStudies(module);
   module.attr("version") = hovercraft::versionText("hovercraft_core");
   module.def("table_commands", tableCommands);

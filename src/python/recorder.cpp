@@ -21,10 +21,14 @@ std::array<double, 3> arrayOf(const Vector3& v) {
 
 StateRow stateRow(const Simulation& simulation, std::size_t body) {
   const std::size_t vehicles = simulation.scenario().vehicles.size();
-  const hovercraft::Motion motion =
-      body < vehicles ? simulation.motion(body) : simulation.bodyMotion(body - vehicles);
-  return {simulation.tick(),
-          hovercraft::toSeconds(simulation.timeNs()),
+  return stateRow(
+      simulation.tick(), simulation.scenario().step_ns,
+      body < vehicles ? simulation.motion(body) : simulation.bodyMotion(body - vehicles));
+}
+
+StateRow stateRow(hovercraft::Tick tick, std::int64_t step_ns, const hovercraft::Motion& motion) {
+  return {tick,
+          hovercraft::toSeconds(tick * step_ns),
           arrayOf(motion.p_WB),
           {motion.q_WB.v.x(), motion.q_WB.v.y(), motion.q_WB.v.z(), motion.q_WB.s},
           arrayOf(motion.twist.v_WB),
@@ -34,13 +38,16 @@ StateRow stateRow(const Simulation& simulation, std::size_t body) {
           motion.energy};
 }
 
+ActuatorRow actuatorRow(const hovercraft::EngineReport& report) {
+  return {report.commanded, report.applied, report.command_age, report.saturated, report.timed_out};
+}
+
 std::vector<ActuatorRow> actuatorRows(const Simulation& simulation, std::size_t vehicle) {
   std::vector<ActuatorRow> rows;
   const std::size_t count = simulation.state().engines[vehicle].size();
+  rows.reserve(count);
   for (std::size_t id = 0; id < count; ++id) {
-    const hovercraft::EngineReport report = simulation.engineReport(vehicle, static_cast<int>(id));
-    rows.push_back(
-        {report.commanded, report.applied, report.command_age, report.saturated, report.timed_out});
+    rows.push_back(actuatorRow(simulation.engineReport(vehicle, static_cast<int>(id))));
   }
   return rows;
 }

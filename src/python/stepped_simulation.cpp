@@ -42,30 +42,15 @@ void requirePlanar(const Quaternion& q, const Vector3& v, const Vector3& w) {
 
 }  // namespace
 
-/// A call has the simulation for itself. A handler of a signal that a long call let in must not
-/// wait for that call.
-class SteppedSimulation::Lock {
+/// A call has the simulation for itself.
+class SteppedSimulation::Lock : public CallLock {
  public:
-  explicit Lock(SteppedSimulation& of) : of_(of) {
-    if (of.owner_ == std::this_thread::get_id()) {
-      throw std::runtime_error("the simulation is stepping: a signal handler must leave it alone");
-    }
-    of.mutex_.lock();
-    of.owner_ = std::this_thread::get_id();
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-  ~Lock() {
-    of_.owner_ = std::thread::id();
-    of_.mutex_.unlock();
-  }
-
- private:
-  SteppedSimulation& of_;
+  explicit Lock(SteppedSimulation& of)
+      : CallLock(of.mutex_, "the simulation is stepping: a signal handler must leave it alone") {}
 };
 
 SteppedSimulation::SteppedSimulation(ScenarioPointer scenario, std::optional<std::int64_t> seed)
-    : scenario_(std::move(scenario)), simulation_(*scenario_), owner_(std::thread::id()) {
+    : scenario_(std::move(scenario)), simulation_(*scenario_) {
   if (seed) simulation_.reset(*seed);
 }
 

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/sim/air_parser.h"
 #include "hovercraft_sim/sim/cushion_builder.h"
+#include "hovercraft_sim/sim/divergence.h"
 #include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
 #include "hovercraft_sim/sim/world_builder.h"
@@ -55,6 +56,13 @@ bool settle(RigidBodyState<Orientation>& body) {
 }
 
 }  // namespace
+
+std::string divergenceText(const std::string& body, Tick tick, double step) {
+  return fmt::format(
+      "{}: the motion diverges (it is not finite after tick {}): step_size = {} s is too long for "
+      "these forces",
+      body, tick, step);
+}
 
 Simulation::Simulation(Scenario scenario)
     : scenario_(std::move(scenario)),
@@ -239,11 +247,10 @@ void Simulation::prepareInputs() {
 }
 
 void Simulation::failAsDiverged(std::size_t body) const {
-  throw std::runtime_error(fmt::format(
-      "{}.{}: the motion diverges (it is not finite after tick {}): step_size = {} s is too "
-      "long for these forces",
-      body < vehicleCount() ? "vehicles" : "world.bodies", world_.scene().bodies()[body].name,
-      state_.tick, scenario_.stepSize()));
+  const char* const list = body < vehicleCount() ? "vehicles" : "world.bodies";
+  throw std::runtime_error(
+      divergenceText(fmt::format("{}.{}", list, world_.scene().bodies()[body].name), state_.tick,
+                     scenario_.stepSize()));
 }
 
 void Simulation::step() {

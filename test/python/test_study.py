@@ -284,6 +284,38 @@ class Flights(Folder):
         rows = [flight.Flyer(plan).row(design.draw(plan)[0]) for plan in (few, more)]
         self.assertEqual(rows[0][:-1], rows[1][:-2])
 
+    def test_flights_side_by_side_make_the_same_rows(self):
+        metrics = {"x": {"final": "position.x"}, "rms": {"rms": "yaw_rate"}, "most": {"max": "applied.rear"}, "yaw": {"final": "yaw"},
+                   "until": {"time_until": {"signal": "speed", "above": 0.2}}, "energy": {"max": "energy"},
+                   "line": {"tracking_error": {"path": [[0, 0], [9, 0]]}}, "none": {"contacts": "all"}}
+        mass, drag = "vehicles.hovercraft.mass", "vehicles.hovercraft.drag.quadratic"
+        varied = {mass: {"uniform": {"min": -0.5, "max": 8.0}}, drag: {"choice": [[0.4, 0.9, 0.0], [1e9, 1e9, 0.0]]},
+                  "command_scale": {"uniform": {"min": 0.5, "max": 1.5}},
+                  "command_delay": {"uniform": {"min": 0.0, "max": 0.2}}}
+        for name, vary, together in (("one kind", varied, True), ("two kinds", {"integrator": {"choice": ["heun", "rk4"]}}, False),
+                                     ("two steps", {"step_size": {"choice": [0.001, 0.002]}}, False)):
+            plan = self.plan(metrics=metrics, vary=vary, runs=40)
+            drawn = design.draw(plan)
+            flyer = flight.Flyer(plan)
+            rows = [row for group in flyer.groups(drawn) for row in flyer.rows(group)]
+            self.assertEqual(rows, [flight.Flyer(plan).row(cells) for cells in drawn], name)
+            found = flyer.together.fly(drawn)
+            flown = [one for one in found if one is not None]
+            if name == "two steps":
+                self.assertLess(len(flown), 40)
+            else:
+                self.assertEqual(bool(flown), together, name)
+            if together:
+                self.assertEqual({row[2] for row in rows}, {"ok", "refused", "diverged"})
+                self.assertGreater(len(flown), 30)
+
+    def test_what_a_batch_cannot_fly_is_flown_one_by_one(self):
+        own = {"own": {"function": "study_functions:last_x"}}
+        for plan in (self.plan(metrics=own, runs=2), self.plan(**{**CONTROLLED, "runs": 2})):
+            flyer = flight.Flyer(plan)
+            self.assertEqual(len(flyer.groups(design.draw(plan))), 2)
+            self.assertEqual(flyer.together.size, 1)
+
     def test_contacts_and_clearance_in_a_world(self):
         scenario = self.write("walled.yaml", """step_size: 0.001
 model: planar

@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/sim/batch.h"
 #include "hovercraft_sim/sim/command_log.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/allocation_counter.h"
+#include "../support/random_craft.h"
 #include "../support/scenario_text.h"
 #include "../support/sensor_scenario.h"
 
@@ -55,6 +57,19 @@ TEST(Allocations, NoneInAStepOnACushionOverAnyGround) {
 
 TEST(Allocations, NoneInAStepOfGusts) {
   EXPECT_EQ(allocationsWhileDriven(loadScenario("config/gusts.yaml")), 0);
+}
+
+TEST(Allocations, NoneInATickOfABatch) {
+  for (const bool has_gusts : {false, true}) {
+    testing::RandomCraft craft(Integrator::kHeun, BodyModel::kSpatial, 1);
+    craft.withActuators();
+    if (has_gusts) craft.withGusts();
+    Batch batch(craft.scenario(), 20);
+    batch.push(7, {500, 0, kAllEngines, {1.0, 0.5, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0}});
+    const long before = allocations;
+    batch.run(1000);
+    EXPECT_EQ(allocations - before, 0) << has_gusts;
+  }
 }
 
 TEST(Allocations, NoneInAStepWithEverySensor) {

@@ -94,16 +94,13 @@ inline Quaternion toQuaternion(const Matrix3& R_WB) {
 /// How a body answers forces: m⁻¹ and Î⁻¹ in B, both restricted to the motions of its model.
 class HOVERCRAFT_PUBLIC Mobility {
  public:
-  /// All six degrees of freedom. @param mass kg, > 0. @param I_BBo_B kg m², positive definite,
-  /// about the centre of mass.
+  /// Six degrees of freedom. @param mass kg, > 0. @param I_BBo_B about B, kg m², positive definite.
   static Mobility spatial(double mass, const Matrix3& I_BBo_B);
 
   /// The same body held to (x, y, yaw): force and velocity keep x and y, moment and angular
   /// velocity keep z. The bearing that holds roll and pitch takes what products of inertia would
   /// turn, hence w_z = L_z / I_zz.
   static Mobility planar(double mass, const Matrix3& I_BBo_B);
-
-  bool isPlanar() const { return free_translation_.z() == 0.0; }  // held to (x, y, yaw)
 
   /// The part of a wrench (in W) that moves the body.
   Wrench project(const Wrench& wrench) const {
@@ -125,8 +122,11 @@ class HOVERCRAFT_PUBLIC Mobility {
     return times(inverse_inertia_B_, transposeTimes(R_WB, angular_momentum_W) - rotors_B);
   }
 
+  bool isPlanar() const { return free_translation_.z() == 0.0; }  // held to (x, y, yaw)
+  double perMass() const { return inverse_mass_; }                // 1/kg
   /// 1/m along each axis of W; 0 where the model does not move.
   Vector3 inverseMass() const { return inverse_mass_ * free_translation_; }
+  const Matrix3& inverseInertiaInBody() const { return inverse_inertia_B_; }  // 1/(kg m²)
 
   /// R Î⁻¹ Rᵀ in W, restricted to the model's rotations.
   Matrix3 inverseInertia(const Matrix3& R_WB) const {

@@ -95,6 +95,17 @@ struct ThrustCourse {
 /// size.
 class HOVERCRAFT_PUBLIC EngineDynamics {
  public:
+  /// What a step needs of an engine.
+  struct Rule {
+    double min_thrust = 0.0;                                // N
+    double max_thrust = 0.0;                                // N
+    double half_decay = 0.0;                                // exp(-h/2τ); 0 without lag
+    double full_decay = 0.0;                                // exp(-h/τ)
+    Tick timeout_ticks = std::numeric_limits<Tick>::max();  // whole steps, rounded up; never
+    bool lags = false;
+    std::shared_ptr<const CommandMap> map;  // null: a command is the thrust
+  };
+
   /// @param step_ns length of a step, ns, > 0.
   EngineDynamics(const ActuatorArray<EngineParameters>& parameters, std::int64_t step_ns);
 
@@ -111,16 +122,34 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
 
   /// The last command lies beyond the engine's limits.
   bool isSaturated(int engine, const EngineState& state) const {
-    const Rule& limits = rules_[static_cast<std::size_t>(engine)];
-    if (isMapped(limits, state)) {
-      return limits.map->exceeds(state.commanded, limits.min_thrust, limits.max_thrust);
-    }
-    return state.commanded < limits.min_thrust || state.commanded > limits.max_thrust;
+    return isSaturated(rules_[static_cast<std::size_t>(engine)], state);
   }
 
   /// The thrust that the engine strives for in the step that begins at `tick`, N.
   double demandedThrust(int engine, const EngineState& state, Tick tick) const {
     return demandOf(rules_[static_cast<std::size_t>(engine)], state, tick);
+  }
+
+  const Rule& rule(std::size_t id) const { return rules_[id]; }
+
+  /// The same of a rule that is kept elsewhere.
+  static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
+    return state.command_tick != EngineState::kNever &&
+           tick - state.command_tick >= rule.timeout_ticks;
+  }
+  static bool isSaturated(const Rule& limits, const EngineState& state) {
+    if (isMapped(limits, state)) {
+      return limits.map->exceeds(state.commanded, limits.min_thrust, limits.max_thrust);
+    }
+    return state.commanded < limits.min_thrust || state.commanded > limits.max_thrust;
+  }
+  static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
+    if (state.stuck) return state.thrust;
+    if (isTimedOut(rule, state, tick)) return 0.0;
+    const double level = isMapped(rule, state)
+                             ? rule.map->levelOf(state.commanded, rule.min_thrust, rule.max_thrust)
+                             : state.commanded;
+    return state.efficiency * std::clamp(level, rule.min_thrust, rule.max_thrust);
   }
 
   /// Thrusts in the step that begins at `tick`. Without lag the thrust is the demand from the start
@@ -133,33 +162,9 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
   [[nodiscard]] Tick course(const EngineStates& states, Tick tick, ThrustCourse& course) const;
 
  private:
-  /// What a step needs of an engine.
-  struct Rule {
-    double min_thrust = 0.0;                                // N
-    double max_thrust = 0.0;                                // N
-    double half_decay = 0.0;                                // exp(-h/2τ); 0 without lag
-    double full_decay = 0.0;                                // exp(-h/τ)
-    Tick timeout_ticks = std::numeric_limits<Tick>::max();  // whole steps, rounded up; never
-    bool lags = false;
-    std::shared_ptr<const CommandMap> map;  // null: a command is the thrust
-  };
-
   /// Before the first command what is commanded is a level.
   static bool isMapped(const Rule& rule, const EngineState& state) {
     return rule.map != nullptr && state.command_tick != EngineState::kNever;
-  }
-
-  static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
-    return state.command_tick != EngineState::kNever &&
-           tick - state.command_tick >= rule.timeout_ticks;
-  }
-  static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
-    if (state.stuck) return state.thrust;
-    if (isTimedOut(rule, state, tick)) return 0.0;
-    const double level = isMapped(rule, state)
-                             ? rule.map->levelOf(state.commanded, rule.min_thrust, rule.max_thrust)
-                             : state.commanded;
-    return state.efficiency * std::clamp(level, rule.min_thrust, rule.max_thrust);
   }
 
   Tick nextTimeout(const EngineStates& states, Tick tick) const;
@@ -178,7 +183,7 @@ class HOVERCRAFT_PUBLIC EngineGeometry {
   Wrench wrenchInBody(const Vector3& thrusts) const {
     return {times(force_map_, thrusts), times(torque_map_, thrusts)};
   }
-  /// The two matrices.
+  /// Column i: force (N) and moment (N m) of 1 N of engine i.
   const Matrix3& forceMap() const { return force_map_; }
   const Matrix3& torqueMap() const { return torque_map_; }
 

@@ -60,6 +60,9 @@ struct Recording {
 };
 
 StateRow stateRow(const hovercraft::Simulation& simulation, std::size_t body);
+/// The same of a motion. @param step_ns ns.
+StateRow stateRow(hovercraft::Tick tick, std::int64_t step_ns, const hovercraft::Motion& motion);
+ActuatorRow actuatorRow(const hovercraft::EngineReport& report);
 /// Of all actuators of a craft, by id.
 std::vector<ActuatorRow> actuatorRows(const hovercraft::Simulation& simulation,
                                       std::size_t vehicle);

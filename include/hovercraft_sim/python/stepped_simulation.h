@@ -1,16 +1,14 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "hovercraft_sim/python/call_lock.h"
 #include "hovercraft_sim/python/recorder.h"
 #include "hovercraft_sim/sim/simulation.h"
 
@@ -90,8 +88,7 @@ class SteppedSimulation {
 
   ScenarioPointer scenario_;
   hovercraft::Simulation simulation_;
-  std::mutex mutex_;
-  std::atomic<std::thread::id> owner_;
+  CallMutex mutex_;
 };
 
 }  // namespace hovercraft_python

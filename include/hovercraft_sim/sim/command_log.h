@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "hovercraft_sim/hovercraft/engines.h"
@@ -48,6 +49,10 @@ class HOVERCRAFT_PUBLIC CommandLog {
   const Command* takeDue(Tick tick);
 
   bool empty() const { return next_ == waiting_.size(); }
+  /// Of the next command; the greatest there is if none waits.
+  Tick nextTick() const {
+    return empty() ? std::numeric_limits<Tick>::max() : waiting_[next_].tick;
+  }
   /// Those that takeDue() has not given yet, in their order.
   std::vector<Command> waiting() const;
 

@@ -19,7 +19,7 @@ def _fly(plan, batch):
     key = plan.fingerprint_text
     if getattr(_own, "key", None) != key:
         _own.key, _own.flyer = key, Flyer(plan)
-    return [_own.flyer.row(cells) for cells in batch]
+    return [row for group in _own.flyer.groups(batch) for row in _own.flyer.rows(group)]
 
 
 def _version():

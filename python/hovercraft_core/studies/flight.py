@@ -106,11 +106,32 @@ class Flyer:
         self.plan = plan
         self.base = _core.Scenario(plan.scenario, "scenario", "", _package_folder)
         self.functions = {name: load_function(plan, name) for name in sorted(plan.function_names)}
+        self.together = None  # made when there are several
 
     def row(self, cells):
         """The cells of the row of results. :param cells: JSON texts, of draw()."""
+        return self._row(cells, None)
+
+    def rows(self, chunk):
+        """row() of each, some of them flown side by side: the same to the last bit, in less time."""
+        if self.together is None:
+            from .together import Together
+            self.together = Together(self)
+        found = self.together.fly(chunk) if self.together.size > 1 else [None] * len(chunk)
+        return [self._row(cells, flown) for cells, flown in zip(chunk, found)]
+
+    def groups(self, chunk):
+        """Rows of the design in the portions that rows() takes."""
+        self.rows([])
+        size = self.together.size
+        return [chunk[begin:begin + size] for begin in range(0, len(chunk), size)]
+
+    def _row(self, cells, flown):
+        """:param flown: a Flight or a Failure of it; None: to be flown."""
         try:
-            flight = self.fly(cells, self.plan.every_of_metrics)
+            if isinstance(flown, Failure):
+                raise flown
+            flight = flown or self.fly(cells, self.plan.every_of_metrics)
             numbers = [metric.value(flight) for metric in self.plan.metrics]
             status, message, state_hash = "ok", "", flight.simulation.hash
         except Failure as failure:
@@ -129,10 +150,14 @@ class Flyer:
         :raises Failure: with the hash of the last state that there was, if there was one.
         """
         every = every or self.plan.every
-        values = dict(zip(self.plan.columns(), (json.loads(cell) for cell in cells)))
-        simulation, held = self._simulation(dict(zip(self.plan.columns(), cells)), values["seed"])
+        values = self.values_of(cells)
+        held = self.scenario_of(cells)
+        try:
+            simulation = Simulation(Scenario(held), values["seed"])
+        except ValueError as error:
+            raise Failure("refused", str(error)) from None
         start = simulation._core.save()
-        changes = self._changes(simulation, values)
+        changes = self._changes(simulation._crafts, values)
         loop = _ClosedLoop(self, simulation, held, values, changes) if self.plan.control_ticks else None
         rows = None if loop else changes.of(self.plan.rows)
         try:
@@ -160,30 +185,38 @@ class Flyer:
         bags().write_bag(path, origin.scenario_yaml, origin.snapshot(), origin.commands, origin.last_tick, origin.every)
         return said or "ok"
 
-    def _simulation(self, cells, seed):
-        """(simulation, scenario). :param cells: JSON texts by key."""
-        changes = [f"{key}={cells[key]}" for key in self.plan.keys if key != "seed" and not key.startswith("command_")]
+    def values_of(self, cells):
+        """What a row of the design says, by column."""
+        return dict(zip(self.plan.columns(), (json.loads(cell) for cell in cells)))
+
+    def scenario_of(self, cells):
+        """The scenario with the values of a row. :raises Failure: if it is refused."""
+        texts = dict(zip(self.plan.columns(), cells))
+        changes = [f"{key}={texts[key]}" for key in self.plan.keys if key != "seed" and not key.startswith("command_")]
         try:
-            held = self.base.with_values("; ".join(changes)) if changes else self.base
-            return Simulation(Scenario(held), seed), held
+            return self.base.with_values("; ".join(changes)) if changes else self.base
         except ValueError as error:
             raise Failure("refused", str(error)) from None
 
-    def _scales(self, simulation, values):
+    def commands_of(self, crafts, values):
+        """The commands of a run that knows them before, as rows. :raises Failure: if they cannot be."""
+        return self._changes(crafts, values).of(self.plan.rows)
+
+    def _scales(self, crafts, values):
         """By craft and actuator: what commands are multiplied by."""
-        scales = np.ones((len(simulation._crafts), _arrays.COMMAND["values"].shape[0]))
+        scales = np.ones((len(crafts), _arrays.COMMAND["values"].shape[0]))
         scales *= values.get("command_scale", 1.0)
-        for i, craft in enumerate(simulation._crafts):
+        for i, craft in enumerate(crafts):
             for name, place in craft.ids.items():
                 scales[i, place] *= values.get(f"command_scale.{name}", 1.0)
         return scales
 
-    def _changes(self, simulation, values):
+    def _changes(self, crafts, values):
         """What becomes of commands in this run."""
         delay = values.get("command_delay", 0.0)
         if not 0.0 <= delay <= 1e6:
             raise Failure("refused", f"command_delay = {delay}: must be from 0 to 1e6 s")
-        return _Changes(self._scales(simulation, values), round(delay * 1e9 / self.plan.step_ns))
+        return _Changes(self._scales(crafts, values), round(delay * 1e9 / self.plan.step_ns))
 
 
 class _Changes:

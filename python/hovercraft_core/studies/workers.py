@@ -27,8 +27,8 @@ def _main(connection, plan):
         while True:
             chunk = connection.recv()
             made, last = [], time.monotonic()
-            for cells in chunk:
-                made.append(flyer.row(cells))
+            for group in flyer.groups(chunk):
+                made += flyer.rows(group)
                 if time.monotonic() - last > REPORT_TIME:
                     connection.send(made)
                     made, last = [], time.monotonic()

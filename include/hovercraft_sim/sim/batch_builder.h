@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hovercraft_sim/hovercraft/engines.h"
+#include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/lanes/lane_block.h"
+#include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/sim/scenario.h"
+
+namespace hovercraft {
+
+/// What all runs of a batch have in common.
+struct BatchKind {
+  std::int64_t step_ns = 0;
+  Integrator integrator = Integrator::kHeun;
+  BodyModel model = BodyModel::kPlanar;
+  bool has_gusts = false;
+  std::vector<std::string> actuator_names;  // besides the engines
+  lanes::StepPlan plan;
+  std::size_t rows = 0;  // numbers of its forces and rotors
+};
+
+/// What a run knows of an actuator between its events.
+struct LaneActuator {
+  EngineDynamics::Rule rule;
+  double commanded = 0.0;
+  Tick command_tick = EngineState::kNever;
+};
+
+/// @throws std::invalid_argument that names the key of what a batch cannot do.
+BatchKind batchKindOf(const Scenario& scenario);
+
+/// @throws std::invalid_argument that begins with the name and names the key in which a run differs
+/// where it must not.
+void requireSameKind(const BatchKind& kind, const BatchKind& first, const std::string& name);
+
+/// Where a run lies in its block.
+struct LanePlace {
+  lanes::Block& block;
+  lanes::Row* wind_W;
+  lanes::Row* more;
+  std::size_t lane;
+};
+
+/// Writes constants and the initial state of a run.
+void writeLane(const Scenario& scenario, const HovercraftModel& model,
+               const EngineDynamics& dynamics, const LanePlace& place);
+
+/// A block of craft that stand and on which nothing acts.
+lanes::Block idleBlock();
+
+}  // namespace hovercraft
