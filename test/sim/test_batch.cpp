@@ -256,23 +256,43 @@ TEST(Batch, ARunThatDivergesStaysAsItWasAndDisturbsNoOther) {
   }
 }
 
-/// Craft in the plane with zeros of either sign and numbers near the greatest there are.
+/// Changes a craft in the plane in one of eight ways: zeros of either sign, a number near the
+/// greatest there are.
+void makeExtreme(Scenario& scenario, std::size_t way, double great) {
+  VehicleScenario& vehicle = scenario.vehicles.front();
+  switch (way) {
+    case 0:
+      vehicle.drag.linear.z() = vehicle.drag.quadratic.z() = great;
+      return;
+    case 1:
+      vehicle.drag.angular_quadratic.x() = great;
+      return;
+    case 2:
+      vehicle.initial_v_WB = {great, -0.0, -0.0};
+      return;
+    case 3:
+      vehicle.initial_w_WB = {-0.0, -0.0, great};
+      return;
+    case 4:
+      vehicle.engines[0].max_thrust = great;
+      return;
+    case 5:
+      vehicle.initial_p_WB = {-0.0, great, -0.0};
+      return;
+    case 6:
+      vehicle.initial_rpy = vehicle.initial_w_WB = Vector3::Constant(-0.0);
+      return;
+    default:
+      scenario.wind.z() = great;
+  }
+}
+
+/// A block of eight for each way.
 std::vector<Scenario> extremes() {
   RandomCraft craft(Integrator::kHeun, BodyModel::kPlanar, 8);
   std::vector<Scenario> scenarios = scenariosOf(craft, 64);
-  std::size_t run = 0;
-  for (Scenario& scenario : scenarios) {
-    VehicleScenario& vehicle = scenario.vehicles.front();
-    const std::size_t kind = run++ / 8;  // a block of each
-    const double great = std::pow(10.0, 40.0 * static_cast<double>(run % 8));
-    if (kind == 0) vehicle.drag.linear.z() = vehicle.drag.quadratic.z() = great;
-    if (kind == 1) vehicle.drag.angular_quadratic.x() = great;
-    if (kind == 2) vehicle.initial_v_WB = {great, -0.0, -0.0};
-    if (kind == 3) vehicle.initial_w_WB = {-0.0, -0.0, great};
-    if (kind == 4) vehicle.engines[0].max_thrust = great;
-    if (kind == 5) vehicle.initial_p_WB = {-0.0, great, -0.0};
-    if (kind == 6) vehicle.initial_rpy = vehicle.initial_w_WB = {-0.0, -0.0, -0.0};
-    if (kind == 7) scenario.wind.z() = great;
+  for (std::size_t run = 0; run < scenarios.size(); ++run) {
+    makeExtreme(scenarios[run], run / 8, std::pow(10.0, 40.0 * static_cast<double>(run % 8)));
   }
   return scenarios;
 }

@@ -46,13 +46,7 @@ template <class Isa, Method kMethod>
                               load<Isa>(steps.wind_W[1], first)};
   Number level[3];
   for (std::size_t i = 0; i < 3; ++i) level[i] = load<Isa>(state.level[i], first);
-  PlanarMotion<Isa> y = {load<Isa>(state.p_WB[0], first),
-                         load<Isa>(state.p_WB[1], first),
-                         load<Isa>(state.q_s, first),
-                         load<Isa>(state.q_v[2], first),
-                         load<Isa>(state.momentum_W[0], first),
-                         load<Isa>(state.momentum_W[1], first),
-                         load<Isa>(state.angular_momentum_W[2], first)};
+  PlanarMotion<Isa> y = planarMotion<Isa>(state, first);
   const Number p_z = load<Isa>(state.p_WB[2], first);
   MaskOf<Isa> moves = load<Isa>(state.moves, first);
   PlanarLoads<Isa> loads;
@@ -63,9 +57,7 @@ template <class Isa, Method kMethod>
       system.wind_y = load<Isa>(steps.wind_W[blown + 1], first);
     }
     for (std::size_t i = 0; i < 3; ++i) turnActuator<Isa>(block, i, first, level[i], loads);
-    system.loadEngines(loads.start);
-    if (kMethod == Method::kRungeKutta4) system.loadEngines(loads.middle);
-    system.loadEngines(loads.end);
+    system.loadAll(loads, kMethod == Method::kRungeKutta4);
     PlanarMotion<Isa> next = steppedMotion<kMethod>(system, y, loads);
     const MaskOf<Isa> sound = finish<Isa>(next, p_z) & moves;
     Number turned[3] = {loads.end.levels[0], loads.end.levels[1], loads.end.levels[2]};
@@ -79,13 +71,7 @@ template <class Isa, Method kMethod>
     for (std::size_t i = 0; i < 3; ++i) level[i] = turned[i];
   }
   for (std::size_t i = 0; i < 3; ++i) store<Isa>(level[i], state.level[i], first);
-  store<Isa>(y.x, state.p_WB[0], first);
-  store<Isa>(y.y, state.p_WB[1], first);
-  store<Isa>(y.s, state.q_s, first);
-  store<Isa>(y.z, state.q_v[2], first);
-  store<Isa>(y.P_x, state.momentum_W[0], first);
-  store<Isa>(y.P_y, state.momentum_W[1], first);
-  store<Isa>(y.L_z, state.angular_momentum_W[2], first);
+  storeMotion(y, state, first);
 }
 
 template <class Isa, Method kMethod>

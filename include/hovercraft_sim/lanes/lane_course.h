@@ -44,10 +44,13 @@ template <class Isa>
 [[gnu::always_inline]] inline PlanarMotion<Isa> chosen(MaskOf<Isa> mask,
                                                        const PlanarMotion<Isa>& yes,
                                                        const PlanarMotion<Isa>& no) {
-  return {choose<Isa>(mask, yes.x, no.x),     choose<Isa>(mask, yes.y, no.y),
-          choose<Isa>(mask, yes.s, no.s),     choose<Isa>(mask, yes.z, no.z),
-          choose<Isa>(mask, yes.P_x, no.P_x), choose<Isa>(mask, yes.P_y, no.P_y),
-          choose<Isa>(mask, yes.L_z, no.L_z)};
+  return {choose<Isa>(mask, yes.x, no.x),
+          choose<Isa>(mask, yes.y, no.y),
+          choose<Isa>(mask, yes.s, no.s),
+          choose<Isa>(mask, yes.z, no.z),
+          choose<Isa>(mask, yes.momentum_x, no.momentum_x),
+          choose<Isa>(mask, yes.momentum_y, no.momentum_y),
+          choose<Isa>(mask, yes.angular_momentum, no.angular_momentum)};
 }
 
 /// Where the mask is none what was there before.
@@ -125,11 +128,11 @@ template <class Isa>
   const Number factor = same<Isa>(1.0) / norm;
   motion.s = factor * motion.s;
   motion.z = factor * motion.z;
-  motion.P_x = settled<Isa>(motion.P_x);
-  motion.P_y = settled<Isa>(motion.P_y);
-  motion.L_z = settled<Isa>(motion.L_z);
-  const Number sum = (motion.x + motion.P_x) + (motion.y + motion.P_y);
-  const Number finite = absolute<Isa>(sum + (p_z + motion.L_z));
+  motion.momentum_x = settled<Isa>(motion.momentum_x);
+  motion.momentum_y = settled<Isa>(motion.momentum_y);
+  motion.angular_momentum = settled<Isa>(motion.angular_momentum);
+  const Number sum = (motion.x + motion.momentum_x) + (motion.y + motion.momentum_y);
+  const Number finite = absolute<Isa>(sum + (p_z + motion.angular_momentum));
   const Number length = absolute<Isa>((motion.s * motion.s + motion.z * motion.z) - same<Isa>(1.0));
   return (finite < same<Isa>(__builtin_inf())) & (length < same<Isa>(kUnitLength));
 }

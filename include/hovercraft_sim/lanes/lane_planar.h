@@ -20,21 +20,32 @@ template <class Isa>
 struct PlanarMotion {
   NumberOf<Isa> x, y;  // p, m
   NumberOf<Isa> s, z;  // of the quaternion
-  NumberOf<Isa> P_x, P_y;
-  NumberOf<Isa> L_z;
+  NumberOf<Isa> momentum_x, momentum_y;
+  NumberOf<Isa> angular_momentum;
 };
 
 template <class Isa>
 [[gnu::always_inline]] inline PlanarMotion<Isa> operator+(const PlanarMotion<Isa>& a,
                                                           const PlanarMotion<Isa>& b) {
-  return {a.x + b.x, a.y + b.y, a.s + b.s, a.z + b.z, a.P_x + b.P_x, a.P_y + b.P_y, a.L_z + b.L_z};
+  return {a.x + b.x,
+          a.y + b.y,
+          a.s + b.s,
+          a.z + b.z,
+          a.momentum_x + b.momentum_x,
+          a.momentum_y + b.momentum_y,
+          a.angular_momentum + b.angular_momentum};
 }
 template <class Isa>
 [[gnu::always_inline]] inline PlanarMotion<Isa> moved(const PlanarMotion<Isa>& y, double step,
                                                       const PlanarMotion<Isa>& k) {
   const NumberOf<Isa> h = same<Isa>(step);
-  return {y.x + h * k.x,     y.y + h * k.y,     y.s + h * k.s,    y.z + h * k.z,
-          y.P_x + h * k.P_x, y.P_y + h * k.P_y, y.L_z + h * k.L_z};
+  return {y.x + h * k.x,
+          y.y + h * k.y,
+          y.s + h * k.s,
+          y.z + h * k.z,
+          y.momentum_x + h * k.momentum_x,
+          y.momentum_y + h * k.momentum_y,
+          y.angular_momentum + h * k.angular_momentum};
 }
 
 /// What the engines make at one time of a step.
@@ -43,6 +54,29 @@ struct PlanarLoad {
   NumberOf<Isa> levels[3];
   NumberOf<Isa> f_x, f_y, t_z;  // in B
 };
+template <class Isa>
+[[gnu::always_inline]] inline PlanarMotion<Isa> planarMotion(const BlockState& state,
+                                                             std::size_t first) {
+  return {load<Isa>(state.p_WB[0], first),
+          load<Isa>(state.p_WB[1], first),
+          load<Isa>(state.q_s, first),
+          load<Isa>(state.q_v[2], first),
+          load<Isa>(state.momentum_W[0], first),
+          load<Isa>(state.momentum_W[1], first),
+          load<Isa>(state.angular_momentum_W[2], first)};
+}
+template <class Isa>
+[[gnu::always_inline]] inline void storeMotion(const PlanarMotion<Isa>& y, BlockState& state,
+                                               std::size_t first) {
+  store<Isa>(y.x, state.p_WB[0], first);
+  store<Isa>(y.y, state.p_WB[1], first);
+  store<Isa>(y.s, state.q_s, first);
+  store<Isa>(y.z, state.q_v[2], first);
+  store<Isa>(y.momentum_x, state.momentum_W[0], first);
+  store<Isa>(y.momentum_y, state.momentum_W[1], first);
+  store<Isa>(y.angular_momentum, state.angular_momentum_W[2], first);
+}
+
 template <class Isa>
 struct PlanarLoads {
   PlanarLoad<Isa> start, middle, end;
@@ -68,6 +102,11 @@ struct PlanarSystem {
     load.f_y = timesLevels(constants.engine_force + 1, load.levels);
     load.t_z = timesLevels(constants.engine_torque + 2, load.levels);
   }
+  [[gnu::always_inline]] void loadAll(PlanarLoads<Isa>& loads, bool has_middle) const {
+    loadEngines(loads.start);
+    if (has_middle) loadEngines(loads.middle);
+    loadEngines(loads.end);
+  }
   [[gnu::always_inline]] Number resistance(const Row& linear, const Row& quadratic,
                                            Number rate) const {
     return -(at(linear) + at(quadratic) * absolute<Isa>(rate)) * rate;
@@ -79,9 +118,9 @@ struct PlanarSystem {
     const Number cosine = same<Isa>(1.0) - z2 * y.z;
     const Number sine = z2 * y.s;
     const Number per_mass = at(constants.inverse_mass);
-    const Number v_x = per_mass * y.P_x;
-    const Number v_y = per_mass * y.P_y;
-    const Number w = at(constants.inverse_inertia_B[8]) * y.L_z;
+    const Number v_x = per_mass * y.momentum_x;
+    const Number v_y = per_mass * y.momentum_y;
+    const Number w = at(constants.inverse_inertia_B[8]) * y.angular_momentum;
     const Number air_x = v_x - wind_x;
     const Number air_y = v_y - wind_y;
     const Number u_x = cosine * air_x + sine * air_y;
