@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
@@ -22,6 +21,14 @@ Vector3 tangentTo(const Vector3& n) {
                                                            : Vector3(0.0, 1.0, 0.0);
   const Vector3 across = cross(axis, n);
   return across / norm(across);
+}
+
+/// To the bit: of a zero of the other sign other tangents are made.
+bool isSame(const Vector3& a, const Vector3& b) {
+  for (int i = 0; i < 3; ++i) {
+    if (a[i] != b[i] || std::signbit(a[i]) != std::signbit(b[i])) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -78,8 +85,7 @@ inline void ContactSolver::turnPoint(Point& point, const Vector3& nhat_AB_W) con
   point.directions[0] = nhat_AB_W;
   if (points_.size() > 1) {
     const Point& last = points_[points_.size() - 2];
-    // To the bit: a zero of the other sign would make others.
-    if (std::memcmp(&last.directions[0], &nhat_AB_W, sizeof nhat_AB_W) == 0) {
+    if (isSame(last.directions[0], nhat_AB_W)) {
       point.directions[1] = last.directions[1];
       point.directions[2] = last.directions[2];
       return;

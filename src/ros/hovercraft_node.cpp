@@ -94,8 +94,8 @@ const char* HovercraftNode::take(hovercraft::Command command,
 hovercraft::Tick HovercraftNode::nextVisibleTick() const {
   const hovercraft::Simulation& simulation = run_.simulation();
   const hovercraft::Tick next = simulation.tick() + 1;
-  // A contact may come in any step, and a command is published by the step that it acts in.
-  if (simulation.world() != nullptr || simulation.hasWaitingCommands()) return next;
+  // A command is published by the step that it acts in.
+  if (simulation.hasWaitingCommands()) return next;
   hovercraft::Tick visible = nextMultiple(next, config_.publish_every);
   if (config_.lockstep) visible = std::min(visible, nextMultiple(next, config_.control_period));
   if (const auto scheduled = schedule_.next()) {  // published by the step that it acts in
@@ -107,7 +107,17 @@ hovercraft::Tick HovercraftNode::nextVisibleTick() const {
     const hovercraft::Tick wait = (clock_->untilDueNs(run_.stamp()) + step_ns - 1) / step_ns;
     visible = std::min(visible, std::max(next, simulation.tick() + wait));
   }
-  return visible;
+  return mayMeetBefore(visible) ? next : visible;
+}
+
+/// Whether a contact may have to be published before a tick, as far as the motion now can tell.
+bool HovercraftNode::mayMeetBefore(hovercraft::Tick tick) const {
+  const hovercraft::Simulation& simulation = run_.simulation();
+  const hovercraft::World* const world = simulation.world();
+  if (world == nullptr) return false;
+  const hovercraft::Tick longest = kLongestSleepNs / config_.scenario.step_ns + 1;
+  const hovercraft::Tick steps = std::min(tick - simulation.tick(), longest);
+  return !world->isClearAhead(simulation.state().bodies, static_cast<double>(steps));
 }
 
 std::int64_t HovercraftNode::waitNs(std::int64_t now_ns) const {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/world/world.h"
 
@@ -105,6 +106,33 @@ bool World::makeClearance(Neighbour& neighbour) {
   neighbour.least = height - half;
   if (apart.per_turn > 0.0) {
     extents_[body].turn = std::min(extents_[body].turn, half / apart.per_turn);
+  }
+  return true;
+}
+
+bool World::isClearAhead(const std::vector<BodyState>& states, double steps) const {
+  const FloatingPointEnvironment environment;
+  if (!scene_.rules().bodies_meet) return true;
+  const std::size_t count = states.size();
+  const std::size_t obstacles = scene_.obstacles().size();
+  if (!was_clear_ || count * (count + obstacles) > kMostPairsAhead) return false;
+  const double ahead = kTravelReserve * steps * scene_.rules().step;  // s
+  std::vector<AxisAlignedBox> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Mobility& mobility = scene_.mobilityOf(static_cast<std::int32_t>(i));
+    const Vector3 travel = scene_.travelOf(i, states[i], states[i], ahead) +
+                           ahead * velocityOf(states[i], mobility).cwiseAbs();
+    const Pose pose = poseOf(states[i]);
+    boxes.push_back(scene_.boxOf(i, pose, travel));
+    for (std::size_t j = 0; j < obstacles; ++j) {
+      int side = 0;
+      if (boxes[i].overlaps(scene_.fixedBox(j)) &&
+          !scene_.findSideOutside(i, pose, travel, static_cast<std::int32_t>(count + j), side)) {
+        return false;
+      }
+    }
+    const auto meets = [&](const AxisAlignedBox& other) { return boxes[i].overlaps(other); };
+    if (std::any_of(boxes.begin(), boxes.end() - 1, meets)) return false;
   }
   return true;
 }

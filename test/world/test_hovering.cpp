@@ -112,6 +112,33 @@ TEST(Hovering, WhatIsKnownOfASlowBodyIsNotOfAFastOne) {
   }
 }
 
+// 3 mm over the floor, and 0.7 m before a wall: bodies may go twice as far as they do now.
+TEST(Hovering, WhetherTheNextStepsAreClearIsSeenFromTheMotion) {
+  const auto is_clear = [](const Vector3& v, double steps) {
+    TestWorld world = plateOverFloor(false, 0.003, {v, Vector3::Zero()});
+    return world.world().isClearAhead(world.states, steps);
+  };
+  EXPECT_TRUE(is_clear(Vector3(10.0, 0.0, 0.0), 34.0));
+  EXPECT_FALSE(is_clear(Vector3(10.0, 0.0, 0.0), 36.0));
+  EXPECT_TRUE(is_clear(Vector3(0.0, 0.0, -0.2), 7.0));
+  EXPECT_FALSE(is_clear(Vector3(0.0, 0.0, -0.2), 8.0));
+}
+
+TEST(Hovering, StepsAreNotClearAheadWhereBodiesTouchOrAreMany) {
+  TestWorld touching = plateOverFloor(false, 0.0, atRest());
+  touching.step();
+  EXPECT_FALSE(touching.world().isClearAhead(touching.states, 1.0));
+  for (const int count : {15, 17}) {
+    TestWorld many;
+    for (int i = 0; i < count; ++i) {
+      many.addBox(1.0, Vector3::Constant(0.2), Vector3(i, 0.0, 0.0),
+                  {Vector3(1.0, 0.0, 0.0), Vector3::Zero()});
+    }
+    EXPECT_EQ(many.world().isClearAhead(many.states, 100.0), count == 15);
+    EXPECT_FALSE(many.world().isClearAhead(many.states, 250.0));
+  }
+}
+
 // What hovers over a floor at rest is hit from above at 50 m/s: within the step
 // it would go 5 cm, and the floor was not looked at.
 TEST(Hovering, ABodyThatIsStruckTowardsAFloorMeetsIt) {

@@ -165,6 +165,10 @@ constexpr double kStepsAhead = 10.0;
 /// What a room is made smaller by (-, of its size): more than the roundings of its sides.
 constexpr double kRoomRounding = 1e-12;
 
+/// Most pairs (-) that are looked at for whether bodies may meet in the next milliseconds: some ten
+/// microseconds' worth, as much as it costs to wait for a step less.
+constexpr std::size_t kMostPairsAhead = 256;
+
 /// Longest turn (rad) for which a body's distance from a plane is bounded by its distance before.
 constexpr double kLongestTurn = 0.1;
 

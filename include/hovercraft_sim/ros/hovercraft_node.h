@@ -91,6 +91,7 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
   const char* take(hovercraft::Command command, const std::optional<ros::Time>& stamp);
   hovercraft::Tick nextVisibleTick() const;
+  bool mayMeetBefore(hovercraft::Tick tick) const;
   std::int64_t waitNs(std::int64_t now_ns) const;
   void advance();
   bool isStepDue(std::int64_t now_ns) const;

@@ -60,6 +60,11 @@ class HOVERCRAFT_PUBLIC World {
   /// tolerance: a stack may be described as touching. @param body only its pairs; -1: all.
   void partTouching(std::vector<BodyState>& states, int body = -1) const;
 
+  /// Whether the bodies come near nothing in so many steps if they move on as they do now, or up to
+  /// twice as fast: for one who waits meanwhile. Forces may let them meet all the same. False where
+  /// that is more than a few hundred pairs to look at.
+  [[nodiscard]] bool isClearAhead(const std::vector<BodyState>& states, double steps) const;
+
   const Scene& scene() const { return scene_; }
   /// How often a bound cut off the rest of a step: on its events, or on how often it is begun anew
   /// because bodies came farther than was looked.
