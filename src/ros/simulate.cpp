@@ -61,6 +61,6 @@ hovercraft::RunSummary simulate(const SimulateRequest& request, std::ostream& me
 
 }  // namespace hovercraft_ros
 
-hovercraft::RosFiles* hovercraft_ros_files() {
+hovercraft::RosFiles* hovercraftRosFiles() {
   return &hovercraft_ros::rosFiles();
 }

@@ -94,10 +94,15 @@ TEST_F(Tools, RunsOfCsvFilesLoadNoRos) {
     EXPECT_NE(outcome.output.find("calling init:"), std::string::npos) << command;
     return outcome.output.find("librosbag") != std::string::npos;
   };
-  EXPECT_FALSE(loads_ros("simulate {}s.yaml -d 0.1 -o {}a.csv"));
-  EXPECT_FALSE(loads_ros("mass_properties {}s.yaml"));
-  EXPECT_FALSE(loads_ros("cushion config/rc5.yaml"));
-  EXPECT_FALSE(loads_ros("velocity_gains {}s.yaml"));
+#ifdef HOVERCRAFT_SANITIZE  // the programs have all of it in them
+  constexpr bool always = true;
+#else
+  constexpr bool always = false;
+#endif
+  EXPECT_EQ(loads_ros("simulate {}s.yaml -d 0.1 -o {}a.csv"), always);
+  EXPECT_EQ(loads_ros("mass_properties {}s.yaml"), always);
+  EXPECT_EQ(loads_ros("cushion config/rc5.yaml"), always);
+  EXPECT_EQ(loads_ros("velocity_gains {}s.yaml"), always);
   EXPECT_TRUE(loads_ros("simulate {}s.yaml -d 0.1 -o {}a.bag"));
 }
 

@@ -33,4 +33,4 @@ HOVERCRAFT_PUBLIC hovercraft::RunSummary simulate(const SimulateRequest& request
 
 /// rosFiles() for a program that loads the library late (dlsym). What it points to is never
 /// deleted.
-extern "C" HOVERCRAFT_PUBLIC hovercraft::RosFiles* hovercraft_ros_files();
+extern "C" HOVERCRAFT_PUBLIC hovercraft::RosFiles* hovercraftRosFiles();

@@ -15,7 +15,8 @@ namespace hovercraft {
 /// found where the program finds those that it is linked with.
 class LateRosFiles : public RosFiles {
  public:
-  /// @param library its file's name, as linkers write it into programs.
+  /// @param library its file's name, as linkers write it into programs; empty: the program has it
+  /// in itself.
   explicit LateRosFiles(std::string library) : library_(std::move(library)) {}
 
   std::string packagePath(const std::string& package) override {
@@ -36,9 +37,10 @@ class LateRosFiles : public RosFiles {
   /// this.
   RosFiles& loaded() {
     if (files_ != nullptr) return *files_;
-    void* const library = dlopen(library_.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    void* const library =
+        dlopen(library_.empty() ? nullptr : library_.c_str(), RTLD_NOW | RTLD_GLOBAL);
     if (library == nullptr) fail();
-    void* const symbol = dlsym(library, "hovercraft_ros_files");
+    void* const symbol = dlsym(library, "hovercraftRosFiles");
     if (symbol == nullptr) fail();
     using Files = RosFiles* (*)();
     files_ = reinterpret_cast<Files>(symbol)();  // NOLINT: as POSIX has it
