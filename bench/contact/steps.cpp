@@ -184,9 +184,13 @@ void stackCost() {
     timeBoxes(fmt::format("stack of {} boxes, 2 cm off each other", count), stackOf(count, 0.01));
   }
   std::vector<std::string> cube;
-  for (int i = 0; i < 27; ++i) {
-    cube.push_back(fmt::format("[{:.1f}, {:.1f}, {:.1f}]", 0.2 * (i % 3), 0.2 * (i / 3 % 3),
-                               0.1 + 0.2 * (i / 9)));
+  cube.reserve(27);
+  for (const double z : {0.1, 0.3, 0.5}) {
+    for (const double y : {0.0, 0.2, 0.4}) {
+      for (const double x : {0.0, 0.2, 0.4}) {
+        cube.push_back(fmt::format("[{:.1f}, {:.1f}, {:.1f}]", x, y, z));
+      }
+    }
   }
   timeBoxes("27 cubes in a cube", cube);
 }
