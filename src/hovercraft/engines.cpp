@@ -63,9 +63,10 @@ Tick EngineDynamics::nextTimeout(const EngineStates& states, Tick tick) const {
   Tick next = std::numeric_limits<Tick>::max();
   const EngineState* state = states.begin();
   for (const Rule& rule : rules_) {
-    const bool may = state->command_tick != EngineState::kNever && rule.timeout_ticks < next;
-    const Tick timeout = may ? state->command_tick + rule.timeout_ticks : next;
-    if (timeout > tick) next = std::min(next, timeout);
+    if (state->command_tick != EngineState::kNever) {
+      const Tick left = rule.timeout_ticks - (tick - state->command_tick);
+      if (left > 0 && left < next - tick) next = tick + left;
+    }
     ++state;
   }
   return next;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "hovercraft_sim/hovercraft/planar_step.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/sim/world_builder.h"
@@ -13,6 +14,8 @@ namespace {
 
 using lanes::ForceKind;
 using lanes::Row;
+
+static_assert(PlanarCraft::kLargest == lanes::kMostOfPlanar, "one bound, in two rooms");
 
 void refuse(bool is_there, const std::string& key, const std::string& rule) {
   if (is_there) throw std::invalid_argument(fmt::format("{}: {}", key, rule));

@@ -2,7 +2,6 @@
 import os
 import signal
 import threading
-import time
 import unittest
 
 import numpy as np
@@ -95,9 +94,8 @@ class Threads(unittest.TestCase):
         done = threading.Event()
 
         def count():
-            while not done.is_set():
+            while not done.wait(0.001):
                 counted.append(1)
-                time.sleep(0.001)
 
         def stop(_signal, _frame):
             with self.assertRaises(RuntimeError):
