@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft::bench {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
-#include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft::bench {

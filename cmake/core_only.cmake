@@ -14,7 +14,7 @@ get_target_property(core_libraries hovercraft_core_objects LINK_LIBRARIES)
 target_link_libraries(${PROJECT_NAME}_test_core ${core_libraries})
 
 enable_testing()
-foreach(module architecture math geometry body cushion hovercraft collision contact control pilot sensors world lanes sim determinism)
+foreach(module architecture ${hovercraft_core_modules} determinism)
   file(GLOB test_sources CONFIGURE_DEPENDS test/${module}/test_*.cpp)
   set(target ${PROJECT_NAME}_test_${module})
   add_executable(${target} test/main.cpp ${test_sources})

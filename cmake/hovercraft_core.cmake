@@ -44,10 +44,12 @@ endif()
 #catkin_lint: ignore_once external_directory
 include_directories(SYSTEM ${EIGEN3_INCLUDE_DIRS} ${qhull_include_dir})
 
-# Every module up to sim.
+# Every module that knows no ROS.
+set(hovercraft_core_modules
+  math io pacing geometry body cushion hovercraft collision contact control pilot sensors world lanes scenario sim records analysis)
 get_filename_component(hovercraft_root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 set(hovercraft_core_sources)
-foreach(module math geometry body cushion hovercraft collision contact control pilot sensors world lanes sim)
+foreach(module ${hovercraft_core_modules})
   file(GLOB module_sources CONFIGURE_DEPENDS ${hovercraft_root}/src/${module}/*.cpp)
   set(sources_of_${module} ${module_sources})
   list(APPEND hovercraft_core_sources ${module_sources})
@@ -102,6 +104,6 @@ list(APPEND hovercraft_core_sources ${hovercraft_commit_source})
 hovercraft_commit(hovercraft_commit ${CMAKE_CURRENT_LIST_DIR}/commit.cpp.in ${hovercraft_commit_source})
 hovercraft_shared_library(hovercraft_core ${yaml_cpp_target} fmt::fmt PNG::PNG Threads::Threads ${qhull_library})
 add_dependencies(hovercraft_core_objects hovercraft_commit)
-foreach(module math geometry body cushion hovercraft collision contact control pilot sensors world lanes sim)
+foreach(module ${hovercraft_core_modules})
   hovercraft_unity(hovercraft_core_objects ${module} ${sources_of_${module}})
 endforeach()

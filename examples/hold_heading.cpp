@@ -9,7 +9,7 @@
 
 #include <geometry_msgs/Quaternion.h>
 #include <hovercraft_sim/ThrustCommand.h>
-#include <hovercraft_sim/sim/version.h>
+#include <hovercraft_sim/scenario/version.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/console.h>
 #include <ros/init.h>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "box_scene.h"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "hovercraft_sim/math/constants.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
-#include "hovercraft_sim/sim/sensor_builder.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/scenario/sensor_builder.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #ifdef HAS_BOX2D

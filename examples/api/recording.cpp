@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <exception>
 
-#include <hovercraft_sim/ros/recording_reader.h>
-#include <hovercraft_sim/ros/trajectory_file.h>
+#include <hovercraft_sim/bags/recording_reader.h>
+#include <hovercraft_sim/bags/trajectory_file.h>
 
 int main(int argc, char** argv) {
   try {

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include <hovercraft_sim/sim/scenario_parser.h>
+#include <hovercraft_sim/scenario/scenario_parser.h>
 #include <hovercraft_sim/sim/simulation.h>
 
 using namespace hovercraft;

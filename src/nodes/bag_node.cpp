@@ -17,7 +17,7 @@
 #include <ros/package.h>
 #include <ros/param.h>
 
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/scenario/version.h"
 
 /// Becomes `rosbag record` or `rosbag play`, with the bag that ~bag names: roslaunch would split a
 /// path among the arguments at its spaces and quotes. Says at once what rosbag would say late or

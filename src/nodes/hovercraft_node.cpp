@@ -1,4 +1,4 @@
-#include "hovercraft_sim/ros/hovercraft_node.h"
+#include "hovercraft_sim/live/hovercraft_node.h"
 
 #include <csignal>
 #include <cstdint>
@@ -15,10 +15,10 @@
 #include <ros/param.h>
 #include <ros/this_node.h>
 
-#include "hovercraft_sim/ros/leave_graph.h"
-#include "hovercraft_sim/ros/node_services.h"
-#include "hovercraft_sim/ros/parameters.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/live/leave_graph.h"
+#include "hovercraft_sim/live/node_services.h"
+#include "hovercraft_sim/messages/parameters.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

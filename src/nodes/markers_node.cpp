@@ -1,11 +1,11 @@
-#include "hovercraft_sim/ros/markers_node.h"
+#include "hovercraft_sim/view/markers_node.h"
 
 #include <exception>
 
 #include <ros/console.h>
 #include <ros/init.h>
 
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/scenario/version.h"
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("markers_node", argc, argv)) return 0;

@@ -10,10 +10,10 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
-#include "hovercraft_sim/ros/pilot_node.h"
-#include "hovercraft_sim/ros/received_scenario.h"
-#include "hovercraft_sim/sim/pilot_parser.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/clients/pilot_node.h"
+#include "hovercraft_sim/clients/received_scenario.h"
+#include "hovercraft_sim/scenario/pilot_parser.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

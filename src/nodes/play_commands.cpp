@@ -8,12 +8,12 @@
 #include <ros/param.h>
 #include <ros/this_node.h>
 
-#include "hovercraft_sim/ros/command_player.h"
-#include "hovercraft_sim/ros/parameters.h"
-#include "hovercraft_sim/ros/play_config.h"
-#include "hovercraft_sim/ros/received_scenario.h"
-#include "hovercraft_sim/sim/commands_csv.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/clients/command_player.h"
+#include "hovercraft_sim/clients/play_config.h"
+#include "hovercraft_sim/clients/received_scenario.h"
+#include "hovercraft_sim/messages/parameters.h"
+#include "hovercraft_sim/records/commands_csv.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

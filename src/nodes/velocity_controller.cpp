@@ -5,9 +5,9 @@
 #include <ros/param.h>
 #include <ros/this_node.h>
 
-#include "hovercraft_sim/ros/parameters.h"
-#include "hovercraft_sim/ros/velocity_node.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/clients/velocity_node.h"
+#include "hovercraft_sim/messages/parameters.h"
+#include "hovercraft_sim/scenario/version.h"
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("velocity_controller", argc, argv)) return 0;

@@ -8,8 +8,8 @@
 #include <ros/param.h>
 #include <ros/this_node.h>
 
-#include "hovercraft_sim/ros/parameters.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/messages/parameters.h"
+#include "hovercraft_sim/scenario/version.h"
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("web_node", argc, argv)) return 0;

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/bags/bag_writer.h"
+#include "hovercraft_sim/bags/commands_bag.h"
+#include "hovercraft_sim/bags/trajectory_file.h"
 #include "hovercraft_sim/python/command_list.h"
 #include "hovercraft_sim/python/rows.h"
-#include "hovercraft_sim/ros/bag_writer.h"
-#include "hovercraft_sim/ros/commands_bag.h"
-#include "hovercraft_sim/ros/trajectory_file.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 /// The extension module hovercraft_core._bags: bags, by the package's own reader and writer. It is

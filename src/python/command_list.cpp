@@ -6,11 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
-#include "hovercraft_sim/sim/number_text.h"
-#include "hovercraft_sim/sim/scenario_names.h"
-#include "hovercraft_sim/sim/world_builder.h"
+#include "hovercraft_sim/scenario/scenario_names.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 
 namespace hovercraft_python {
 

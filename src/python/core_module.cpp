@@ -13,6 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "hovercraft_sim/analysis/closest_report.h"
+#include "hovercraft_sim/analysis/compare.h"
+#include "hovercraft_sim/analysis/mass_report.h"
 #include "hovercraft_sim/python/command_list.h"
 #include "hovercraft_sim/python/held_scenario.h"
 #include "hovercraft_sim/python/recorder.h"
@@ -20,14 +23,11 @@
 #include "hovercraft_sim/python/stepped_batch.h"
 #include "hovercraft_sim/python/stepped_simulation.h"
 #include "hovercraft_sim/python/studies.h"
-#include "hovercraft_sim/sim/closest_report.h"
-#include "hovercraft_sim/sim/commands_csv.h"
-#include "hovercraft_sim/sim/compare.h"
-#include "hovercraft_sim/sim/mass_report.h"
-#include "hovercraft_sim/sim/scenario_names.h"
-#include "hovercraft_sim/sim/states_csv.h"
-#include "hovercraft_sim/sim/version.h"
-#include "hovercraft_sim/sim/world_builder.h"
+#include "hovercraft_sim/records/commands_csv.h"
+#include "hovercraft_sim/records/states_csv.h"
+#include "hovercraft_sim/scenario/scenario_names.h"
+#include "hovercraft_sim/scenario/version.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 
 /// The extension module hovercraft_core._core: the core as Python's package hovercraft_core asks
 /// for it. It knows no ROS.

@@ -5,8 +5,8 @@
 #include <system_error>
 #include <utility>
 
-#include "hovercraft_sim/sim/input_file.h"
-#include "hovercraft_sim/sim/yaml_text.h"
+#include "hovercraft_sim/io/input_file.h"
+#include "hovercraft_sim/scenario/yaml_text.h"
 
 namespace hovercraft_python {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sensors/laser_model.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_python {
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "hovercraft_sim/math/demand.h"
-#include "hovercraft_sim/sim/world_builder.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 
 namespace hovercraft_python {
 

@@ -14,8 +14,8 @@
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/python/held_scenario.h"
 #include "hovercraft_sim/python/rows.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/divergence.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft_python {
 

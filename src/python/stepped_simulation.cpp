@@ -9,8 +9,8 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/python/command_list.h"
-#include "hovercraft_sim/sim/air_parser.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/air_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 namespace hovercraft_python {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hovercraft_sim/analysis/nearest_pair.h"
 #include "hovercraft_sim/geometry/pose.h"
 #include "hovercraft_sim/math/elementary.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
@@ -16,8 +17,7 @@
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/python/held_scenario.h"
 #include "hovercraft_sim/python/rows.h"
-#include "hovercraft_sim/sim/nearest_pair.h"
-#include "hovercraft_sim/sim/world_builder.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 
 namespace hovercraft_python {
 

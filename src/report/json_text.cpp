@@ -3,7 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/io/number_text.h"
 
 namespace hovercraft_ros {
 

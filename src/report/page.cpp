@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 #include <stdexcept>
 
+#include "hovercraft_sim/io/base64.h"
+#include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/report/front_end.h"
 #include "hovercraft_sim/report/json_text.h"
 #include "hovercraft_sim/report/packed_numbers.h"
-#include "hovercraft_sim/sim/base64.h"
-#include "hovercraft_sim/sim/number_text.h"
 
 namespace hovercraft_ros {
 

@@ -11,7 +11,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include "hovercraft_sim/ros/bag_file.h"
+#include "hovercraft_sim/bags/bag_file.h"
 
 namespace hovercraft_ros {
 namespace {

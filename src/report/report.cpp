@@ -7,12 +7,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "hovercraft_sim/io/output_file.h"
+#include "hovercraft_sim/io/progress_bar.h"
 #include "hovercraft_sim/report/page.h"
 #include "hovercraft_sim/report/recorded_topics.h"
 #include "hovercraft_sim/report/run_figures.h"
 #include "hovercraft_sim/report/run_reader.h"
-#include "hovercraft_sim/sim/output_file.h"
-#include "hovercraft_sim/sim/progress_bar.h"
 
 namespace hovercraft_ros {
 namespace {

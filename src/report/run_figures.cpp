@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "hovercraft_sim/report/figure_axes.h"
-#include "hovercraft_sim/sim/world_builder.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 
 namespace hovercraft_ros {
 namespace {

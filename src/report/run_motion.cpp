@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "hovercraft_sim/messages/vehicle_messages.h"
 #include "hovercraft_sim/report/run_parts.h"
-#include "hovercraft_sim/ros/vehicle_messages.h"
 
 namespace hovercraft_ros {
 

@@ -8,10 +8,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "hovercraft_sim/bags/recorded_messages.h"
+#include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/report/run_parts.h"
-#include "hovercraft_sim/ros/recorded_messages.h"
-#include "hovercraft_sim/sim/number_text.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 
 namespace hovercraft_ros {
 

@@ -5,8 +5,8 @@
 #include "hovercraft_sim/geometry/convex_hull.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/report/run_parts.h"
-#include "hovercraft_sim/ros/vehicle_markers.h"
-#include "hovercraft_sim/sim/world_builder.h"
+#include "hovercraft_sim/scenario/world_builder.h"
+#include "hovercraft_sim/view/vehicle_markers.h"
 
 namespace hovercraft_ros {
 

@@ -11,9 +11,9 @@
 
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
-#include "hovercraft_sim/sim/air_parser.h"
+#include "hovercraft_sim/scenario/air_parser.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft {
 namespace {

@@ -7,7 +7,7 @@
 #include "hovercraft_sim/hovercraft/planar_step.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
-#include "hovercraft_sim/sim/world_builder.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 
 namespace hovercraft {
 namespace {

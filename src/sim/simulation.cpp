@@ -9,12 +9,12 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
-#include "hovercraft_sim/sim/air_parser.h"
-#include "hovercraft_sim/sim/cushion_builder.h"
+#include "hovercraft_sim/scenario/air_parser.h"
+#include "hovercraft_sim/scenario/cushion_builder.h"
+#include "hovercraft_sim/scenario/sensor_builder.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/divergence.h"
-#include "hovercraft_sim/sim/sensor_builder.h"
 #include "hovercraft_sim/sim/state_hash.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 namespace hovercraft {
 namespace {

@@ -1,6 +1,6 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
-#include "hovercraft_sim/sim/air_parser.h"
+#include "hovercraft_sim/scenario/air_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/state_hash.h"
 

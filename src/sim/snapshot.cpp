@@ -4,15 +4,15 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "hovercraft_sim/io/input_file.h"
+#include "hovercraft_sim/io/output_file.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
-#include "hovercraft_sim/sim/input_file.h"
-#include "hovercraft_sim/sim/output_file.h"
-#include "hovercraft_sim/sim/scenario_names.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_names.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/scenario/version.h"
+#include "hovercraft_sim/scenario/yaml_text.h"
 #include "hovercraft_sim/sim/snapshot_air.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
-#include "hovercraft_sim/sim/version.h"
-#include "hovercraft_sim/sim/yaml_text.h"
 
 namespace hovercraft {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/air_parser.h"
-#include "hovercraft_sim/sim/yaml_text.h"
+#include "hovercraft_sim/scenario/air_parser.h"
+#include "hovercraft_sim/scenario/yaml_text.h"
 
 namespace hovercraft {
 namespace {

@@ -7,14 +7,14 @@
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
-#include "hovercraft_sim/sim/config_reader.h"
-#include "hovercraft_sim/sim/scenario_names.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/config_reader.h"
+#include "hovercraft_sim/scenario/scenario_names.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/scenario/version.h"
+#include "hovercraft_sim/scenario/yaml_text.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/snapshot_air.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
-#include "hovercraft_sim/sim/version.h"
-#include "hovercraft_sim/sim/yaml_text.h"
 
 /// A snapshot is as foreign as a scenario: it may be any file, or come in a bag. Nothing of it
 /// becomes an index, a pose or a time before it was checked, whatever its hash says.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "hovercraft_sim/sim/yaml_text.h"
+#include "hovercraft_sim/scenario/yaml_text.h"
 
 namespace hovercraft {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/closest_report.h"
-#include "hovercraft_sim/sim/mesh_scale.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/analysis/closest_report.h"
+#include "hovercraft_sim/scenario/mesh_scale.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

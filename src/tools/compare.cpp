@@ -1,12 +1,12 @@
-#include "hovercraft_sim/sim/compare.h"
+#include "hovercraft_sim/analysis/compare.h"
 
 #include <boost/program_options.hpp>
 #include <exception>
 #include <iostream>
 
-#include "hovercraft_sim/ros/trajectory_file.h"
-#include "hovercraft_sim/sim/output_file.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/bags/trajectory_file.h"
+#include "hovercraft_sim/io/output_file.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/hover_report.h"
-#include "hovercraft_sim/sim/late_ros_files.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/analysis/hover_report.h"
+#include "hovercraft_sim/records/late_ros_files.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

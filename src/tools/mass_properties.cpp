@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/late_ros_files.h"
-#include "hovercraft_sim/sim/mass_report.h"
-#include "hovercraft_sim/sim/mesh_scale.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/analysis/mass_report.h"
+#include "hovercraft_sim/records/late_ros_files.h"
+#include "hovercraft_sim/scenario/mesh_scale.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
-#include "hovercraft_sim/ros/replay.h"
+#include "hovercraft_sim/bags/replay.h"
 
 #include <boost/program_options.hpp>
 #include <exception>
 #include <iostream>
 
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/scenario/version.h"
 
 int main(int argc, char** argv) {
   namespace po = boost::program_options;

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <unistd.h>
 
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/scenario/version.h"
 
 int main(int argc, char** argv) {
   namespace po = boost::program_options;

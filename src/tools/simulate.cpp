@@ -1,12 +1,12 @@
-#include "hovercraft_sim/sim/simulate.h"
+#include "hovercraft_sim/records/simulate.h"
 
 #include <boost/program_options.hpp>
 #include <exception>
 #include <iostream>
 #include <unistd.h>
 
-#include "hovercraft_sim/sim/late_ros_files.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/records/late_ros_files.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

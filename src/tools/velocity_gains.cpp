@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "hovercraft_sim/sim/late_ros_files.h"
-#include "hovercraft_sim/sim/velocity_parameters.h"
-#include "hovercraft_sim/sim/version.h"
+#include "hovercraft_sim/records/late_ros_files.h"
+#include "hovercraft_sim/scenario/velocity_parameters.h"
+#include "hovercraft_sim/scenario/version.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "hovercraft_sim/sim/utf8.h"
+#include "hovercraft_sim/io/utf8.h"
 #include "hovercraft_sim/web/json_reader.h"
 
 namespace hovercraft_ros {

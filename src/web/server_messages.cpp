@@ -4,11 +4,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "hovercraft_sim/io/number_text.h"
+#include "hovercraft_sim/io/utf8.h"
 #include "hovercraft_sim/report/json_text.h"
 #include "hovercraft_sim/report/page.h"
 #include "hovercraft_sim/report/run_parts.h"
-#include "hovercraft_sim/sim/number_text.h"
-#include "hovercraft_sim/sim/utf8.h"
 #include "hovercraft_sim/web/craft_controls.h"
 
 namespace hovercraft_ros {

@@ -17,10 +17,10 @@
 #include <ros/transport_hints.h>
 
 #include "hovercraft_sim/hovercraft/engines.h"
-#include "hovercraft_sim/ros/conversions.h"
-#include "hovercraft_sim/ros/vehicle_messages.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
-#include "hovercraft_sim/sim/steady_clock.h"
+#include "hovercraft_sim/io/steady_clock.h"
+#include "hovercraft_sim/messages/conversions.h"
+#include "hovercraft_sim/messages/vehicle_messages.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 
 namespace hovercraft_ros {
 

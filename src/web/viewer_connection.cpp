@@ -7,7 +7,7 @@
 #include <boost/beast/http/field.hpp>
 #include <chrono>
 
-#include "hovercraft_sim/sim/steady_clock.h"
+#include "hovercraft_sim/io/steady_clock.h"
 #include "hovercraft_sim/web/client_message.h"
 
 namespace hovercraft_ros {

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/scenario/config_reader.h"
 
 namespace hovercraft_ros {
 namespace {

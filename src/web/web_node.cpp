@@ -11,7 +11,7 @@
 #include <ros/init.h>
 #include <ros/spinner.h>
 
-#include "hovercraft_sim/sim/steady_clock.h"
+#include "hovercraft_sim/io/steady_clock.h"
 
 namespace hovercraft_ros {
 namespace {

@@ -13,8 +13,8 @@
 
 #include <ros/console.h>
 
+#include "hovercraft_sim/io/steady_clock.h"
 #include "hovercraft_sim/report/front_end.h"
-#include "hovercraft_sim/sim/steady_clock.h"
 #include "hovercraft_sim/web/viewer_connection.h"
 
 namespace hovercraft_ros {

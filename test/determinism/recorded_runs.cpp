@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft::testing {

@@ -2,10 +2,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "hovercraft_sim/ros/commands_bag.h"
-#include "hovercraft_sim/ros/recording_reader.h"
-#include "hovercraft_sim/ros/trajectory_file.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/bags/commands_bag.h"
+#include "hovercraft_sim/bags/recording_reader.h"
+#include "hovercraft_sim/bags/trajectory_file.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 
 #include "memory_file.h"
 #include "targets.h"

@@ -3,13 +3,13 @@
 #include <string>
 #include <yaml-cpp/yaml.h>
 
-#include "hovercraft_sim/sim/commands_csv.h"
+#include "hovercraft_sim/io/grey_image.h"
+#include "hovercraft_sim/records/commands_csv.h"
+#include "hovercraft_sim/records/states_csv.h"
+#include "hovercraft_sim/scenario/pilot_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/craft_pilot.h"
-#include "hovercraft_sim/sim/grey_image.h"
-#include "hovercraft_sim/sim/pilot_parser.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/snapshot.h"
-#include "hovercraft_sim/sim/states_csv.h"
 
 #include "memory_file.h"
 #include "targets.h"

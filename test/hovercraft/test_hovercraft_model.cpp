@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/hovercraft/step_inputs.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/numbers.h"

@@ -14,11 +14,11 @@
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
+#include "hovercraft_sim/bags/simulate.h"
+#include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/report/page.h"
 #include "hovercraft_sim/report/report.h"
 #include "hovercraft_sim/report/run_reader.h"
-#include "hovercraft_sim/ros/simulate.h"
-#include "hovercraft_sim/sim/number_text.h"
 
 #include "../support/files.h"
 #include "../support/scenarios.h"

@@ -16,7 +16,7 @@
 #include <ros/node_handle.h>
 #include <ros/service.h>
 
-#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/messages/conversions.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/contact_messages.h"

@@ -15,9 +15,9 @@
 #include <ros/package.h>
 #include <ros/service.h>
 
-#include "hovercraft_sim/ros/flight_test.h"
-#include "hovercraft_sim/ros/replay.h"
-#include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/bags/replay.h"
+#include "hovercraft_sim/bags/simulate.h"
+#include "hovercraft_sim/clients/flight_test.h"
 
 #include "../support/recorded_flight.h"
 

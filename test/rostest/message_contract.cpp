@@ -14,7 +14,7 @@
 #include <hovercraft_sim/State.h>
 #include <nav_msgs/Odometry.h>
 
-#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/messages/conversions.h"
 
 #include "../support/core_run.h"
 #include "../support/pilot.h"

@@ -9,8 +9,8 @@
 #include <ros/service.h>
 #include <std_msgs/String.h>
 
-#include "hovercraft_sim/ros/simulate.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/bags/simulate.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/wait_until.h"

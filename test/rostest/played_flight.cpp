@@ -11,8 +11,8 @@
 #include <ros/package.h>
 #include <ros/service.h>
 
-#include "hovercraft_sim/ros/flight_test.h"
-#include "hovercraft_sim/ros/simulate.h"
+#include "hovercraft_sim/bags/simulate.h"
+#include "hovercraft_sim/clients/flight_test.h"
 
 #include "../support/temporary_folder.h"
 

@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "hovercraft_sim/sim/actuator_topics.h"
+#include "hovercraft_sim/scenario/actuator_topics.h"
+#include "hovercraft_sim/scenario/pilot_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/scenario/velocity_parameters.h"
+#include "hovercraft_sim/scenario/yaml_text.h"
 #include "hovercraft_sim/sim/craft_pilot.h"
-#include "hovercraft_sim/sim/pilot_parser.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
-#include "hovercraft_sim/sim/velocity_parameters.h"
-#include "hovercraft_sim/sim/yaml_text.h"
 
 #include "../support/scenario_text.h"
 

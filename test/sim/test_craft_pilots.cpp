@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/math/constants.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/craft_pilots.h"
 #include "hovercraft_sim/sim/run.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
 
 #include "../support/files.h"
 

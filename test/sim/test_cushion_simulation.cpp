@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/math/rotation.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 /// Craft on cushions as scenarios fly them.

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/state_hash.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 #include "../support/scenario_text.h"
 

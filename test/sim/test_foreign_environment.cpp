@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/analysis/closest_report.h"
+#include "hovercraft_sim/analysis/compare.h"
 #include "hovercraft_sim/body/mass_properties.h"
 #include "hovercraft_sim/collision/closest_features.h"
 #include "hovercraft_sim/collision/penetration.h"
@@ -17,15 +19,13 @@
 #include "hovercraft_sim/geometry/polyhedron_shapes.h"
 #include "hovercraft_sim/geometry/volume_moments.h"
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/math/elementary.h"
 #include "hovercraft_sim/math/rotation.h"
-#include "hovercraft_sim/sim/closest_report.h"
-#include "hovercraft_sim/sim/compare.h"
-#include "hovercraft_sim/sim/number_text.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/state_hash.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 #include "../support/foreign_environment.h"
 #include "../support/same_bits.h"

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/scenario/velocity_parameters.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sensors/noise_process.h"
 #include "hovercraft_sim/sensors/sensor_suite.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
 #include "hovercraft_sim/sim/state_hash.h"
-#include "hovercraft_sim/sim/velocity_parameters.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 #include "../support/same_bits.h"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "hovercraft_sim/sim/commands_csv.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/records/commands_csv.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/snapshot.h"
 

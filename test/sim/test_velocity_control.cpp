@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/math/constants.h"
+#include "hovercraft_sim/scenario/velocity_parameters.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/simulation.h"
-#include "hovercraft_sim/sim/velocity_parameters.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 #include "../support/files.h"
 #include "../support/scenarios.h"

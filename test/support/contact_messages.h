@@ -7,7 +7,7 @@
 
 #include <hovercraft_sim/Contact.h>
 
-#include "hovercraft_sim/ros/conversions.h"
+#include "hovercraft_sim/messages/conversions.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros::testing {

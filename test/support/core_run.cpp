@@ -10,7 +10,7 @@
 #include <hovercraft_sim/EngineStatus.h>
 #include <ros/serialization.h>
 
-#include "hovercraft_sim/ros/vehicle_messages.h"
+#include "hovercraft_sim/messages/vehicle_messages.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros::testing {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "hovercraft_sim/math/quaternion.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/command_log.h"
-#include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft::testing {
 

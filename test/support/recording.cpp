@@ -6,8 +6,8 @@
 #include <hovercraft_sim/AppliedCommand.h>
 #include <std_msgs/String.h>
 
-#include "hovercraft_sim/ros/conversions.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/messages/conversions.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 
 #include "recorded_flight.h"
 

@@ -8,8 +8,8 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/command_log.h"
-#include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_ros::testing {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 
 namespace hovercraft::testing {
 

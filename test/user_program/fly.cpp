@@ -9,10 +9,10 @@
 
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/hovercraft/step_inputs.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/state_hash.h"
-#include "hovercraft_sim/sim/world_builder.h"
 
 #include "../determinism/recorded_runs.h"
 

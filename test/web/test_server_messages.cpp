@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/web/craft_controls.h"
 #include "hovercraft_sim/web/server_messages.h"
 

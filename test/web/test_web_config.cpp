@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hovercraft_sim/sim/yaml_text.h"
+#include "hovercraft_sim/scenario/yaml_text.h"
 #include "hovercraft_sim/web/web_config.h"
 
 namespace hovercraft_ros {

@@ -1,6 +1,6 @@
 #include <string>
 
-#include <hovercraft_sim/ros/flight_test.h>
+#include <hovercraft_sim/clients/flight_test.h>
 
 namespace {
 

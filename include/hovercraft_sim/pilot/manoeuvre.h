@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-/// Manoeuvres as they are asked for, checked by whoever makes them (sim/pilot_parser.h). Sides,
-/// names and measures are those of the ITTC's procedure for full-scale manoeuvring trials
+/// Manoeuvres as they are asked for, checked by whoever makes them (scenario/pilot_parser.h).
+/// Sides, names and measures are those of the ITTC's procedure for full-scale manoeuvring trials
 /// (7.5-04-02-01); angles are in degrees, as its manoeuvres are called (zig-zag 10/10).
 namespace hovercraft {
 

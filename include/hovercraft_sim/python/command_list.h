@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/command_source.h"
-#include "hovercraft_sim/sim/scenario.h"
 
 namespace hovercraft_python {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/scenario.h"
-#include "hovercraft_sim/sim/scenario_parser.h"
+#include "hovercraft_sim/scenario/scenario.h"
+#include "hovercraft_sim/scenario/scenario_parser.h"
 
 namespace hovercraft_python {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "hovercraft_sim/hovercraft/actuator_array.h"
+#include "hovercraft_sim/records/trajectory.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/command_log.h"
-#include "hovercraft_sim/sim/scenario.h"
-#include "hovercraft_sim/sim/trajectory.h"
 
 /// What the extension modules hand each other as arrays of numpy.
 

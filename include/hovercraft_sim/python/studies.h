@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "hovercraft_sim/python/stepped_simulation.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/craft_pilot.h"
-#include "hovercraft_sim/sim/scenario.h"
 
 /// What studies (python/hovercraft_core/studies) need of the core: draws, exact functions,
 /// distances, pilots.

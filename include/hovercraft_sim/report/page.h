@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "hovercraft_sim/analysis/compare.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/report/run_data.h"
-#include "hovercraft_sim/sim/compare.h"
 
 namespace hovercraft_ros {
 

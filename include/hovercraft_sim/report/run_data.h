@@ -9,7 +9,7 @@
 
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/math/vector.h"
-#include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/scenario/scenario.h"
 
 /// What a page shows of one bag. All times are ns from the start of the run: from tick 0 where the
 /// bag has states, else from its first pose.

@@ -10,9 +10,9 @@
 #include "hovercraft_sim/lanes/lane_block.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/batch_builder.h"
 #include "hovercraft_sim/sim/command_log.h"
-#include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/simulation_state.h"
 
 namespace hovercraft {

@@ -9,7 +9,7 @@
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
 #include "hovercraft_sim/lanes/lane_block.h"
 #include "hovercraft_sim/math/time.h"
-#include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/scenario/scenario.h"
 
 namespace hovercraft {
 

@@ -9,8 +9,8 @@
 #include "hovercraft_sim/math/vector.h"
 #include "hovercraft_sim/pilot/pilot.h"
 #include "hovercraft_sim/pilot/turning.h"
+#include "hovercraft_sim/scenario/pilot_parser.h"
 #include "hovercraft_sim/sim/command_log.h"
-#include "hovercraft_sim/sim/pilot_parser.h"
 
 namespace hovercraft {
 

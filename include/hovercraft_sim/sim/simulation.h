@@ -10,9 +10,9 @@
 #include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
+#include "hovercraft_sim/scenario/actuator_forces.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sensors/sensor_suite.h"
-#include "hovercraft_sim/sim/actuator_forces.h"
-#include "hovercraft_sim/sim/scenario.h"
 #include "hovercraft_sim/sim/simulation_state.h"
 #include "hovercraft_sim/world/world.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "hovercraft_sim/math/export.h"
-#include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/scenario/config_reader.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 /// The air's part of a snapshot: the mean wind and what gusts remember.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/config_reader.h"
+#include "hovercraft_sim/scenario/config_reader.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 /// The sensors' part of a snapshot: what they remember, the samples on their way, and a hash.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hovercraft_sim/math/export.h"
-#include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/scenario/scenario.h"
 
 namespace hovercraft_ros {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hovercraft_sim/math/export.h"
-#include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/web/driver_seats.h"
 
 /// What viewers are told, as JSON (doc/web.md). Each is made once, however many viewers there are.

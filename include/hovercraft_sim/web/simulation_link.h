@@ -25,7 +25,7 @@
 #include <std_msgs/String.h>
 
 #include "hovercraft_sim/math/export.h"
-#include "hovercraft_sim/sim/scenario.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/web/craft_controls.h"
 #include "hovercraft_sim/web/server_messages.h"
 

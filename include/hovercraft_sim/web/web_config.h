@@ -4,7 +4,7 @@
 #include <string>
 
 #include "hovercraft_sim/math/export.h"
-#include "hovercraft_sim/sim/config_node.h"
+#include "hovercraft_sim/scenario/config_node.h"
 #include "hovercraft_sim/web/access.h"
 
 namespace hovercraft_ros {

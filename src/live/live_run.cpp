@@ -1,0 +1,43 @@
+#include "hovercraft_sim/live/live_run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "hovercraft_sim/messages/run_events.h"
+
+namespace hovercraft_ros {
+
+using hovercraft_sim::RunEvent;
+
+LiveRun::LiveRun(hovercraft::Scenario scenario, std::int64_t epoch_ns)
+    : simulation_(std::move(scenario)), epoch_ns_(epoch_ns) {}
+
+ros::Time LiveRun::stampOf(hovercraft::Tick tick) const {
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(epoch_ns_ + tick * simulation_.scenario().step_ns));
+  return stamp;
+}
+
+ros::Time LiveRun::sampleStamp(hovercraft::Tick tick) const {
+  const std::int64_t time_ns = epoch_ns_ + tick * simulation_.scenario().step_ns;
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(time_ns, 1)));
+  return stamp;
+}
+
+RunEvent LiveRun::apply(RunEvent event) {
+  event.header.stamp = headerStamp();
+  event.tick = static_cast<std::uint64_t>(simulation_.tick());
+  const std::int64_t now_ns = epoch_ns_ + simulation_.timeNs();
+  applyEvent(event, simulation_);
+  if (event.kind == RunEvent::RESET || event.kind == RunEvent::LOAD) {
+    ++episode_;
+    events_ = 0;
+    epoch_ns_ = now_ns - simulation_.timeNs();
+  }
+  event.episode = episode_;
+  event.number = ++events_;
+  return event;
+}
+
+}  // namespace hovercraft_ros

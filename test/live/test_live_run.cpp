@@ -1,0 +1,251 @@
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "hovercraft_sim/live/live_run.h"
+#include "hovercraft_sim/messages/conversions.h"
+#include "hovercraft_sim/messages/run_events.h"
+#include "hovercraft_sim/sim/snapshot.h"
+
+#include "../support/scenario_text.h"
+
+namespace hovercraft_ros {
+namespace {
+
+using hovercraft::Scenario;
+using hovercraft::Vector3;
+using hovercraft::testing::parsed;
+using hovercraft::testing::validScenario;
+using hovercraft::testing::with;
+using hovercraft_sim::ApplyWrench;
+using hovercraft_sim::SetState;
+
+constexpr std::int64_t kEpoch = 5000000000;  // ns
+
+/// The valid scenario, its craft held to the plane.
+Scenario planarScenario() {
+  std::string text = with(validScenario(), "model: spatial", "model: planar");
+  text = with(text, "rpy: [0.1, 0.2, 0.3]", "rpy: [0, 0, 0.3]");
+  text = with(text, "velocity: [4, 5, 6]", "velocity: [4, 5, 0]");
+  return parsed(with(text, "angular_velocity: [0.4, 0.5, 0.6]", "angular_velocity: [0, 0, 0.6]"));
+}
+
+SetState::Request stateRequest() {
+  SetState::Request request;
+  request.vehicle = "alpha";
+  request.pose.position = toPointMessage({1.0, 2.0, 3.0});
+  request.pose.orientation = toQuaternionMessage(hovercraft::quaternionFromRpy({0.0, 0.0, 0.7}));
+  request.twist.linear = toVector3Message({0.5, -0.4, 0.0});
+  request.twist.angular = toVector3Message({0.0, 0.0, 0.9});
+  return request;
+}
+
+ApplyWrench::Request wrenchRequest() {
+  ApplyWrench::Request request;
+  request.vehicle = "alpha";
+  request.wrench.force.x = 1.5;
+  request.frame_id = "world";
+  request.duration = ros::Duration(0.0031);
+  return request;
+}
+
+template <class Call>
+std::string refusal(const Call& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void advance(LiveRun& run, int steps) {
+  for (int n = 0; n < steps; ++n) run.simulation().step();
+}
+
+TEST(LiveRun, StampIsEpochPlusTicks) {
+  LiveRun run(parsed(validScenario()), kEpoch);  // steps of 2 ms
+  EXPECT_EQ(run.stamp(), ros::Time(5, 0));
+  advance(run, 3);
+  EXPECT_EQ(run.stamp(), ros::Time(5, 6000000));
+}
+
+/// ROS takes time 0 for no time.
+TEST(LiveRun, WhatHappensAtTime0IsStampedAsTick1) {
+  LiveRun run(parsed(validScenario()), 0);  // steps of 2 ms
+  EXPECT_TRUE(run.stamp().isZero());
+  EXPECT_EQ(run.place().stamp.toNSec(), 2000000U);
+  EXPECT_EQ(run.apply(resetEvent(1)).header.stamp.toNSec(), 2000000U);
+  advance(run, 1);
+  EXPECT_EQ(run.place().stamp.toNSec(), 2000000U);
+  advance(run, 1);
+  EXPECT_EQ(run.place().stamp.toNSec(), 4000000U);
+}
+
+TEST(LiveRun, ResetBeginsAnEpisodeWhileTimeGoesOn) {
+  LiveRun run(parsed(validScenario()), kEpoch);
+  const std::uint64_t fresh = run.simulation().hash();
+  advance(run, 250);
+  const auto event = run.apply(resetEvent(1));
+  EXPECT_EQ(event.tick, 250U);
+  EXPECT_EQ(event.episode, 1U);
+  EXPECT_EQ(event.header.stamp, ros::Time(5, 500000000));
+  EXPECT_EQ(run.episode(), 1U);
+  EXPECT_EQ(run.simulation().tick(), 0);
+  EXPECT_EQ(run.simulation().hash(), fresh);
+  EXPECT_EQ(run.stamp(), ros::Time(5, 500000000));
+  advance(run, 1);
+  EXPECT_EQ(run.stamp(), ros::Time(5, 502000000));
+}
+
+TEST(LiveRun, AResetBringsTheSeedThatItNames) {
+  LiveRun run(parsed(validScenario()), kEpoch);
+  ASSERT_NE(run.simulation().state().seed, 42);
+  run.apply(resetEvent(42));
+  EXPECT_EQ(run.simulation().state().seed, 42);
+}
+
+TEST(LiveRun, LoadGoesOnFromTheSnapshotsTickWhileTimeGoesOn) {
+  const Scenario scenario = parsed(validScenario());
+  hovercraft::Simulation saved(scenario);
+  for (int n = 0; n < 9000; ++n) saved.step();  // 18 s: longer than the run that loads it is old
+  LiveRun run(scenario, 0);
+  advance(run, 1);
+  run.apply(loadEvent(hovercraft::toSnapshot(saved)));
+  EXPECT_EQ(run.episode(), 1U);
+  EXPECT_EQ(run.simulation().hash(), saved.hash());
+  EXPECT_EQ(run.stamp(), ros::Time(0, 2000000));
+  advance(run, 1);
+  EXPECT_EQ(run.simulation().tick(), 9001);
+  EXPECT_EQ(run.stamp(), ros::Time(0, 4000000));
+}
+
+TEST(LiveRun, ARenewedStampIsOneStepLater) {
+  LiveRun run(parsed(validScenario()), kEpoch);  // steps of 2 ms
+  advance(run, 3);
+  run.renewStamp();
+  EXPECT_EQ(run.stamp(), ros::Time(5, 8000000));
+  EXPECT_EQ(run.simulation().tick(), 3);
+  advance(run, 1);
+  EXPECT_EQ(run.stamp(), ros::Time(5, 10000000));
+}
+
+// A live command takes effect at the next step: it could not be queued behind a later one.
+TEST(LiveRun, ASnapshotWithCommandsOfLaterTicksIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  hovercraft::Simulation saved(scenario);
+  saved.push({0, 0, hovercraft::kAllEngines, {}});
+  LiveRun run(scenario, kEpoch);
+  run.apply(loadEvent(hovercraft::toSnapshot(saved)));
+  EXPECT_TRUE(run.simulation().hasWaitingCommands());
+  saved.push({3, 0, hovercraft::kAllEngines, {}});
+  EXPECT_EQ(refusal([&] { run.apply(loadEvent(hovercraft::toSnapshot(saved))); }),
+            "snapshot: commands: tick = 3: must be that of the snapshot, 0");
+}
+
+TEST(LiveRun, AnEventThatIsRefusedChangesNothing) {
+  LiveRun run(parsed(validScenario()), kEpoch);
+  advance(run, 10);
+  const std::uint64_t before = run.simulation().hash();
+  EXPECT_THROW(run.apply(loadEvent("no snapshot")), std::invalid_argument);
+  hovercraft_sim::RunEvent unknown;
+  EXPECT_THROW(run.apply(unknown), std::invalid_argument);
+  EXPECT_EQ(run.simulation().hash(), before);
+  EXPECT_EQ(run.episode(), 0U);
+}
+
+// base_link is off the centre of mass in this scenario: what was asked of base_link must come back
+// for base_link.
+TEST(RunEvents, SetStateMovesBaseLinkToTheMotionThatWasAsked) {
+  const Scenario scenario = planarScenario();
+  LiveRun run(scenario, kEpoch);
+  run.apply(setStateEvent(scenario, stateRequest()));
+  const HullMotion hull =
+      hullMotion(run.simulation().motion(0), scenario.vehicles[0].mass_properties.p_HB);
+  EXPECT_LT(hovercraft::norm(hull.p_WH - Vector3(1.0, 2.0, 3.0)), 1e-15);
+  EXPECT_LT(hovercraft::norm(hull.v_WH_H - Vector3(0.5, -0.4, 0.0)), 1e-15);
+  EXPECT_LT(hovercraft::norm(hull.w_WH_H - Vector3(0.0, 0.0, 0.9)), 1e-15);
+}
+
+// 5.5 kg at 1e200 m/s: the square is beyond a double.
+TEST(RunEvents, AMotionWithoutFiniteEnergyIsRefused) {
+  const Scenario scenario = parsed(validScenario());
+  LiveRun run(scenario, kEpoch);
+  const std::uint64_t before = run.simulation().hash();
+  const std::string complaint = "pose, twist: the momenta and the energy must be finite";
+  std::vector<SetState::Request> absurd(3, stateRequest());
+  absurd[0].twist.linear.x = 1e200;
+  absurd[1].twist.angular.z = 1e200;
+  absurd[2].twist.linear.y = 1.7e308;
+  for (const SetState::Request& request : absurd) {
+    EXPECT_EQ(refusal([&] { run.apply(setStateEvent(scenario, request)); }), complaint);
+  }
+  SetState::Request far = stateRequest();
+  far.pose.position.y = 1e200;
+  EXPECT_EQ(refusal([&] { run.apply(setStateEvent(scenario, far)); }),
+            "pose.position: must be at most 1e30 m, of either sign");
+  EXPECT_EQ(run.simulation().hash(), before);
+}
+
+TEST(RunEvents, SetStateIsRefusedByName) {
+  const Scenario scenario = planarScenario();
+  const auto complaint = [&scenario](const SetState::Request& request) {
+    return refusal([&] { setStateEvent(scenario, request); });
+  };
+  SetState::Request request = stateRequest();
+  EXPECT_EQ(complaint(request), "");
+  request.vehicle = "beta";
+  EXPECT_EQ(complaint(request), "vehicle = beta: must be one of: alpha");
+  request = stateRequest();
+  request.pose.position.y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(complaint(request), "pose.position: must be finite");
+  request = stateRequest();
+  request.twist.angular.z = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(complaint(request), "twist.angular: must be finite");
+  request = stateRequest();
+  request.pose.orientation.w = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(complaint(request), "pose.orientation: must have length 1 (it has nan)");
+  request = stateRequest();
+  request.pose.orientation = toQuaternionMessage({0.6, {0.8, 0.0, 0.0}});
+  EXPECT_NE(complaint(request).find("the model is planar"), std::string::npos);
+  request = stateRequest();
+  request.twist.linear.z = 1e-9;
+  EXPECT_NE(complaint(request).find("twist.linear: the model is planar"), std::string::npos);
+}
+
+TEST(RunEvents, WrenchLastsItsDurationRoundedUpToSteps) {
+  const Scenario scenario = planarScenario();  // steps of 2 ms
+  EXPECT_EQ(applyWrenchEvent(scenario, wrenchRequest(), TfFrames(), 100).end_tick, 102U);
+  ApplyWrench::Request in_body = wrenchRequest();
+  in_body.frame_id = "alpha/base_link";
+  EXPECT_EQ(applyWrenchEvent(scenario, in_body, TfFrames(), 0).in_body_axes, 1);
+  in_body.frame_id = "red/alpha/base_link";
+  EXPECT_EQ(applyWrenchEvent(scenario, in_body, {"world", "red"}, 0).in_body_axes, 1);
+}
+
+TEST(RunEvents, WrenchIsRefusedByName) {
+  const Scenario scenario = planarScenario();
+  const auto complaint = [&scenario](const ApplyWrench::Request& request) {
+    return refusal([&] { applyWrenchEvent(scenario, request, TfFrames(), 0); });
+  };
+  ApplyWrench::Request request = wrenchRequest();
+  EXPECT_EQ(complaint(request), "");
+  request.frame_id = "map";
+  EXPECT_EQ(complaint(request), "frame_id = map: must be world or alpha/base_link");
+  request = wrenchRequest();
+  EXPECT_EQ(refusal([&] {
+              applyWrenchEvent(scenario, request, {"map", "red"}, 0);
+            }),
+            "frame_id = world: must be map or red/alpha/base_link");
+  request.duration = ros::Duration(0.0);
+  EXPECT_EQ(complaint(request), "duration: must be greater than 0");
+  request = wrenchRequest();
+  request.wrench.torque.z = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(complaint(request), "wrench.torque: must be finite");
+}
+
+}  // namespace
+}  // namespace hovercraft_ros
