@@ -165,7 +165,8 @@ TEST(IncludeRules, EveryFileKeepsThem) {
       ADD_FAILURE() << violation;
     }
   }
-  for (const char* module : {"math", "geometry", "body", "hovercraft", "sim", "ros", "nodes"}) {
+  for (const char* module :
+       {"math", "geometry", "body", "hovercraft", "scenario", "sim", "messages", "live", "nodes"}) {
     EXPECT_GT(files[module], 0) << "no file of " << module << " was found";
   }
 }
@@ -198,8 +199,9 @@ TEST(IncludeRules, RosInTheCoreIsRefused) {
        {"<ros/ros.h>", "<rosbag/bag.h>", "<tf2/LinearMath/Quaternion.h>", "<tf2_ros/buffer.h>",
         "<geometry_msgs/Pose.h>", "<hovercraft_sim/State.h>", "<XmlRpcValue.h>",
         "\"hovercraft_sim/messages/conversions.h\"", "\"ros/ros.h\""}) {
-    for (const char* module : {"math", "geometry", "body", "hovercraft", "collision", "contact",
-                               "sensors", "world", "sim"}) {
+    for (const char* module :
+         {"math", "geometry", "body", "hovercraft", "collision", "contact", "sensors", "world",
+          "io", "pacing", "scenario", "sim", "records", "analysis"}) {
       EXPECT_EQ(violationsOf(module, "#include " + std::string(header)).size(), 1U)
           << module << " " << header;
     }
@@ -216,9 +218,9 @@ TEST(IncludeRules, LowerModulesMustNotIncludeHigherOnes) {
   EXPECT_EQ(violationsOf("tools", "#include \"hovercraft_sim/body/rigid_body.h\"").size(), 1U);
 }
 
-TEST(IncludeRules, YamlIsReadInSimOnly) {
-  for (const char* module :
-       {"math", "geometry", "body", "hovercraft", "world", "ros", "nodes", "tools"}) {
+TEST(IncludeRules, YamlIsReadInScenarioAndSimOnly) {
+  for (const char* module : {"math", "io", "geometry", "body", "hovercraft", "world", "records",
+                             "messages", "bags", "live", "nodes", "tools"}) {
     EXPECT_EQ(violationsOf(module, "#include <yaml-cpp/yaml.h>").size(), 1U) << module;
   }
   EXPECT_TRUE(violationsOf("sim", "#include <yaml-cpp/yaml.h>").empty());
