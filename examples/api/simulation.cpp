@@ -1,18 +1,25 @@
 // A scenario, flown without ROS: commands in, states out, a snapshot to which the run goes back.
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include <hovercraft_sim/scenario/scenario_parser.h>
+#include <hovercraft_sim/sim/run_observer.h>
 #include <hovercraft_sim/sim/simulation.h>
 
 using namespace hovercraft;
 
+struct Told : RunObserver {
+  void contact(const ContactEvent& event) override {
+    std::printf("%.3f s: contact with %s\n", event.time, std::string(event.b).c_str());
+  }
+};
+
 int main(int argc, char** argv) {
   try {
     Simulation simulation(loadScenario(argc > 1 ? argv[1] : "config/hovercraft.yaml"));
-    simulation.on_contact = [](const ContactEvent& contact) {
-      std::printf("%.3f s: contact\n", contact.time);
-    };
+    Told told;
+    simulation.observe(&told);
     SimulationState saved;
     for (int tick = 0; tick < 5000; ++tick) {
       if (tick == 2500) saved = simulation.state();

@@ -12,6 +12,7 @@
 
 #include "hovercraft_sim/messages/manoeuvre_messages.h"
 #include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros {
 namespace {

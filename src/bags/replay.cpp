@@ -24,10 +24,10 @@ namespace {
 using hovercraft_sim::RunEvent;
 
 /// One run again, tick by tick, driven by the lists of a recording.
-class Replayer {
+class Replayer : private hovercraft::RunObserver {
  public:
   Replayer(const Recording& recording, const hovercraft::Scenario& scenario,
-           const ReplayObserver& observer)
+           RecordingObserver* observer)
       : recording_(recording),
         is_changed_(hovercraft::toYaml(scenario) != hovercraft::toYaml(recording.scenario)),
         is_older_(recording.physics_version != hovercraft::kPhysicsVersion),
@@ -35,9 +35,7 @@ class Replayer {
         observer_(observer),
         samples_(recording.samples, scenario) {
     for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) messages_.emplace_back(scenario, i);
-    simulation_.on_applied = observer.on_applied;
-    simulation_.on_contact = observer.on_contact;
-    simulation_.on_sample = [this](const hovercraft::SensorSample& sample) { take(sample); };
+    simulation_.observe(this);
   }
 
   ReplayResult run(bool compares) {
@@ -77,9 +75,17 @@ class Replayer {
     result_.largest_error_vehicle = messages.name();
   }
 
+  void applied(const hovercraft::Command& command) override {
+    if (observer_ != nullptr) observer_->applied(command);
+  }
+
+  void contact(const hovercraft::ContactEvent& event) override {
+    if (observer_ != nullptr) observer_->contact(event);
+  }
+
   /// Its stamp is that of the recording's episode.
-  void take(const hovercraft::SensorSample& sample) {
-    if (observer_.on_sample) observer_.on_sample(sample);
+  void sample(const hovercraft::SensorSample& sample) override {
+    if (observer_ != nullptr) observer_->sample(sample);
     const auto epoch = recording_.epochs_ns.find(episode_);
     if (epoch == recording_.epochs_ns.end()) return;
     const std::int64_t step_ns = simulation_.scenario().step_ns;
@@ -169,7 +175,7 @@ class Replayer {
       throw std::invalid_argument(fmt::format("{}: event {} of episode {}: {}", recording_.source,
                                               event.number, event.episode, error.what()));
     }
-    if (observer_.on_event) observer_.on_event(event, simulation_);
+    if (observer_ != nullptr) observer_->event(event, simulation_);
   }
 
   /// A snapshot is of the scenario that was recorded. In a changed one the craft start with the
@@ -217,7 +223,7 @@ class Replayer {
 
   void tellObserver(const RunTime& time) {
     const bool is_new = !told_ || *told_ < time;
-    if (is_new && observer_.on_state) observer_.on_state(simulation_);
+    if (is_new && observer_ != nullptr) observer_->state(simulation_);
     told_ = time;
   }
 
@@ -225,7 +231,7 @@ class Replayer {
   bool is_changed_;  // the scenario is not that of the recording
   bool is_older_;    // other equations made its states
   hovercraft::Simulation simulation_;
-  const ReplayObserver& observer_;
+  RecordingObserver* observer_;
   SampleComparison samples_;
   std::vector<VehicleMessages> messages_;
   std::uint32_t episode_ = 0;
@@ -293,7 +299,7 @@ std::string verdictOf(const ReplayResult& result, const Recording& recording) {
 }  // namespace
 
 ReplayResult replay(const Recording& recording, const hovercraft::Scenario& scenario, bool compares,
-                    const ReplayObserver& observer) {
+                    RecordingObserver* observer) {
   return Replayer(recording, scenario, observer).run(compares);
 }
 
@@ -315,27 +321,11 @@ int replayBag(const ReplayRequest& request, std::string& verdict) {
       {"--set", request.sets});
 
   std::unique_ptr<BagWriter> writer;
-  ReplayObserver observer;
   if (!request.output.empty()) {
     writer = std::make_unique<BagWriter>(request.output, scenario, request.truth_odom);
-    observer.on_state = [&writer](const hovercraft::Simulation& state) { writer->state(state); };
-    observer.on_contact = [&writer](const hovercraft::ContactEvent& contact) {
-      writer->contact(contact);
-    };
-    observer.on_sample = [&writer](const hovercraft::SensorSample& sample) {
-      writer->sample(sample);
-    };
-    observer.on_applied = [&writer](const hovercraft::Command& command) {
-      writer->applied(command);
-    };
-  }
-  if (writer) {
-    observer.on_event = [&writer](const RunEvent& event, const hovercraft::Simulation& state) {
-      writer->event(event, state);
-    };
   }
   const bool compares = request.sets.empty();
-  const ReplayResult result = replay(recording, scenario, compares, observer);
+  const ReplayResult result = replay(recording, scenario, compares, writer.get());
   if (writer) writer->close();
   if (!compares) {
     verdict = fmt::format("replayed with changes: {} ticks, hash {:016x}", result.simulated_ticks,

@@ -21,9 +21,9 @@ class BagsAndPackages : public hovercraft::RosFiles {
       const std::string& path, const hovercraft::Scenario& scenario) override {
     return std::make_unique<BagCommandSource>(path, scenario);
   }
-  std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
-                                                    const hovercraft::Scenario& scenario,
-                                                    const std::string& truth_odom) override {
+  std::unique_ptr<hovercraft::RunObserver> openOutput(const std::string& path,
+                                                      const hovercraft::Scenario& scenario,
+                                                      const std::string& truth_odom) override {
     return std::make_unique<BagWriter>(path, scenario, truth_odom);
   }
   void checkTruthOdom(const std::string& topic) override {
@@ -49,9 +49,9 @@ std::unique_ptr<hovercraft::CommandSource> openCommands(const std::string& path,
   return hovercraft::openCommands(path, scenario, rosFiles());
 }
 
-std::unique_ptr<hovercraft::StateSink> openOutput(const std::string& path,
-                                                  const hovercraft::Scenario& scenario,
-                                                  const std::string& truth_odom) {
+std::unique_ptr<hovercraft::RunObserver> openOutput(const std::string& path,
+                                                    const hovercraft::Scenario& scenario,
+                                                    const std::string& truth_odom) {
   return hovercraft::openOutput(path, scenario, truth_odom, rosFiles());
 }
 

@@ -53,17 +53,11 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
       diagnostics_(handle, private_handle) {
   ros::NodeHandle own(private_handle);
   for (std::size_t i = 0; i < config_.scenario.vehicles.size(); ++i) addVehicle(handle, i);
-  run_.simulation().on_applied = [this](const hovercraft::Command& command) {
-    vehicles_[command.vehicle]->publishApplied(command);
-  };
+  run_.simulation().observe(this);
   bodies_ = bodyMessages(config_.scenario, config_.frames);
   for (std::size_t i = 0; i < bodies_.size(); ++i) addBody(handle, i);
   if (config_.scenario.world) {
     contacts_ = own.advertise<hovercraft_sim::Contact>("contacts", kContactQueue);
-    run_.simulation().on_contact = [this](const hovercraft::ContactEvent& event) {
-      if (!contacts_.isHeard()) return contacts_.skip();
-      contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.frames.world));
-    };
   }
   addSensors(handle);
   advertiseTransforms(handle);
@@ -77,6 +71,19 @@ HovercraftNode::HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHan
   graph_watch_.emplace(handle, claims());
   addReports(own);
   setRealTimeFactor(config_.real_time_factor);
+}
+
+void HovercraftNode::applied(const hovercraft::Command& command) {
+  vehicles_[command.vehicle]->publishApplied(command);
+}
+
+void HovercraftNode::contact(const hovercraft::ContactEvent& event) {
+  if (!contacts_.isHeard()) return contacts_.skip();
+  contacts_.publish(toMessage(event, run_.epochNs(), run_.episode(), config_.frames.world));
+}
+
+void HovercraftNode::sample(const hovercraft::SensorSample& sample) {
+  sensors_->publish(sample);
 }
 
 void HovercraftNode::addVehicle(const ros::NodeHandle& handle, std::size_t vehicle) {
@@ -109,9 +116,6 @@ void HovercraftNode::addSensors(const ros::NodeHandle& handle) {
   const bool is_renamed = config_.truth_odom != kOdomTopic;
   sensors_.emplace(handle, run_, config_.frames, is_renamed ? kOdomTopic : kOdometryTopic,
                    config_.lockstep);
-  run_.simulation().on_sample = [this](const hovercraft::SensorSample& sample) {
-    sensors_->publish(sample);
-  };
 }
 
 void HovercraftNode::advertiseTransforms(ros::NodeHandle handle) {

@@ -75,26 +75,6 @@ void SteppedSimulation::step(std::int64_t count, const Interrupt& interrupt) {
   }
 }
 
-namespace {
-
-/// Takes the callbacks away when a run ends, however it does.
-class CallbackGuard {
- public:
-  explicit CallbackGuard(hovercraft::Simulation& simulation) : simulation_(simulation) {}
-  CallbackGuard(const CallbackGuard&) = delete;
-  CallbackGuard& operator=(const CallbackGuard&) = delete;
-  ~CallbackGuard() {
-    simulation_.on_applied = nullptr;
-    simulation_.on_contact = nullptr;
-    simulation_.on_sample = nullptr;
-  }
-
- private:
-  hovercraft::Simulation& simulation_;
-};
-
-}  // namespace
-
 Recording SteppedSimulation::run(std::vector<hovercraft::Command> commands, double duration,
                                  std::int64_t every, const Interrupt& interrupt) {
   const Lock lock(*this);
@@ -122,7 +102,6 @@ Recording SteppedSimulation::run(std::vector<hovercraft::Command> commands, doub
   };
   Recorder recorder(simulation_.scenario(), static_cast<std::uint64_t>(ticks / every) + 1);
   CommandList source(std::move(commands));
-  const CallbackGuard guard(simulation_);
   try {
     hovercraft::run(simulation_, source, recorder, plan);
   } catch (const std::runtime_error& error) {

@@ -1,16 +1,15 @@
 #include "hovercraft_sim/records/actuators_csv.h"
 
 #include <fmt/format.h>
-#include <utility>
 
 #include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/scenario/world_builder.h"
+#include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft {
 
-ActuatorsCsvWriter::ActuatorsCsvWriter(const std::string& path, const Scenario& scenario,
-                                       std::unique_ptr<StateSink> next)
-    : RelaySink(std::move(next)), file_(path) {
+ActuatorsCsvWriter::ActuatorsCsvWriter(const std::string& path, const Scenario& scenario)
+    : file_(path) {
   for (std::size_t vehicle = 0; vehicle < scenario.vehicles.size(); ++vehicle) {
     const VehicleScenario& craft = scenario.vehicles[vehicle];
     for (std::size_t id = 0; id < kFirstActuator + craft.actuators.size(); ++id) {
@@ -34,12 +33,10 @@ void ActuatorsCsvWriter::state(const Simulation& simulation) {
                                         report.saturated ? 1 : 0, report.timed_out ? 1 : 0);
     file_.write(row.data(), row.size());
   }
-  RelaySink::state(simulation);
 }
 
 void ActuatorsCsvWriter::close() {
   file_.close();
-  RelaySink::close();
 }
 
 }  // namespace hovercraft

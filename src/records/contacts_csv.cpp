@@ -2,9 +2,9 @@
 
 #include <cstddef>
 #include <fmt/format.h>
-#include <utility>
 
 #include "hovercraft_sim/io/number_text.h"
+#include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft {
 namespace {
@@ -17,8 +17,7 @@ std::string columns(const Vector3& v) {
 
 const char* const kContactKindNames[3] = {"bounce", "stick", "rest"};
 
-ContactsCsvWriter::ContactsCsvWriter(const std::string& path, std::unique_ptr<StateSink> next)
-    : RelaySink(std::move(next)), file_(path) {
+ContactsCsvWriter::ContactsCsvWriter(const std::string& path) : file_(path) {
   const std::string header = "time,kind,a,b,x,y,z,nx,ny,nz,jx,jy,jz\n";
   file_.write(header.data(), header.size());
 }
@@ -29,12 +28,10 @@ void ContactsCsvWriter::contact(const ContactEvent& event) {
                   kContactKindNames[static_cast<std::size_t>(event.kind)], event.a, event.b,
                   columns(event.p_WC), columns(event.nhat_AB_W), columns(event.impulse_B_W));
   file_.write(row.data(), row.size());
-  RelaySink::contact(event);
 }
 
 void ContactsCsvWriter::close() {
   file_.close();
-  RelaySink::close();
 }
 
 }  // namespace hovercraft

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <stdexcept>
-#include <utility>
 
 #include "hovercraft_sim/io/number_text.h"
+#include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft {
 
-CushionCsvWriter::CushionCsvWriter(const std::string& path, const Scenario& scenario,
-                                   std::unique_ptr<StateSink> next)
-    : RelaySink(std::move(next)), file_(path) {
+CushionCsvWriter::CushionCsvWriter(const std::string& path, const Scenario& scenario)
+    : file_(path) {
   const auto has_cushion = [](const VehicleScenario& vehicle) {
     return vehicle.cushion.has_value();
   };
@@ -38,12 +37,10 @@ void CushionCsvWriter::state(const Simulation& simulation) {
       file_.write(row.data(), row.size());
     }
   }
-  RelaySink::state(simulation);
 }
 
 void CushionCsvWriter::close() {
   file_.close();
-  RelaySink::close();
 }
 
 }  // namespace hovercraft

@@ -8,6 +8,7 @@
 
 #include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/sensors/laser_model.h"
+#include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft {
 namespace {
@@ -31,9 +32,8 @@ std::string headerOf(const SensorParameters& sensor) {
 }  // namespace
 
 SensorsCsvWriter::SensorsCsvWriter(const std::string& folder, const Scenario& scenario,
-                                   const std::vector<std::string>& taken,
-                                   std::unique_ptr<StateSink> next)
-    : RelaySink(std::move(next)), step_ns_(scenario.step_ns) {
+                                   const std::vector<std::string>& taken)
+    : step_ns_(scenario.step_ns) {
   std::vector<OutputOption> outputs;
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     for (const SensorParameters& sensor : vehicle.sensors) {
@@ -76,14 +76,12 @@ void SensorsCsvWriter::sample(const SensorSample& sample) {
   }
   row.push_back('\n');
   sensor.file->write(row.data(), row.size());
-  RelaySink::sample(sample);
 }
 
 void SensorsCsvWriter::close() {
   for (auto& craft : sensors_) {
     for (Sensor& sensor : craft) sensor.file->close();
   }
-  RelaySink::close();
 }
 
 }  // namespace hovercraft

@@ -24,6 +24,7 @@
 #include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/craft_pilots.h"
+#include "hovercraft_sim/sim/run_outputs.h"
 
 namespace hovercraft {
 
@@ -61,10 +62,20 @@ Tick ticksOfCommands(const std::string& path, const Scenario& scenario, RosFiles
   return last + firstTickAt(kAfterLastCommandNs, scenario.step_ns);
 }
 
+void checkEvery(const char* option, Tick every, const char* of, const std::string& file) {
+  if (every < 0)
+    throw std::invalid_argument(fmt::format("{} = {}: must be 1 or greater", option, every));
+  if (every > 0 && file.empty()) {
+    throw std::invalid_argument(fmt::format("{}: has a meaning with {} only", option, of));
+  }
+}
+
 void checkRequest(const SimulateRequest& request, RosFiles& ros) {
   if (request.every < 1) {
     throw std::invalid_argument(fmt::format("--every = {}: must be 1 or greater", request.every));
   }
+  checkEvery("--actuators-every", request.actuators_every, "--actuators", request.actuators);
+  checkEvery("--cushion-every", request.cushion_every, "--cushion", request.cushion);
   if (request.commands.empty() && request.pilots.empty() && request.duration.empty()) {
     throw std::invalid_argument(
         "--duration is missing: without --commands and --pilot it must be given");
@@ -88,10 +99,10 @@ void checkRequest(const SimulateRequest& request, RosFiles& ros) {
                inputs);
 }
 
-/// Hands everything on to another sink, and counts the wall time that this one takes.
-class TimedSink : public StateSink {
+/// Hands everything on to another observer, and counts the wall time that this one takes.
+class TimedObserver : public RunObserver {
  public:
-  explicit TimedSink(std::unique_ptr<StateSink> next) : next_(std::move(next)) {}
+  explicit TimedObserver(std::unique_ptr<RunObserver> next) : next_(std::move(next)) {}
 
   void state(const Simulation& simulation) override {
     timed([&] { next_->state(simulation); });
@@ -122,7 +133,7 @@ class TimedSink : public StateSink {
     spent_ns_ += steadyNow() - begin;
   }
 
-  std::unique_ptr<StateSink> next_;
+  std::unique_ptr<RunObserver> next_;
   std::int64_t spent_ns_ = 0;
 };
 
@@ -189,8 +200,8 @@ std::unique_ptr<CommandSource> openCommands(const std::string& path, const Scena
   return std::make_unique<CsvCommandSource>(path, scenario, InputKind::kFileOrStream);
 }
 
-std::unique_ptr<StateSink> openOutput(const std::string& path, const Scenario& scenario,
-                                      const std::string& truth_odom, RosFiles& ros) {
+std::unique_ptr<RunObserver> openOutput(const std::string& path, const Scenario& scenario,
+                                        const std::string& truth_odom, RosFiles& ros) {
   const std::string extension = fs::path(path).extension().string();
   if (extension == ".bag") return ros.openOutput(path, scenario, truth_odom);
   if (extension != ".csv" && path != "-") {
@@ -212,24 +223,27 @@ std::vector<std::string> filesOf(const SimulateRequest& request) {
   return files;
 }
 
-/// The output and the CSV files beside it, each around those before.
-std::unique_ptr<StateSink> openOutputs(const SimulateRequest& request, const Scenario& scenario,
-                                       RosFiles& ros) {
-  std::unique_ptr<StateSink> output = openOutput(request.output, scenario, request.truth_odom, ros);
+/// The output and the CSV files beside it.
+std::unique_ptr<RunOutputs> openOutputs(const SimulateRequest& request, const Scenario& scenario,
+                                        RosFiles& ros) {
+  auto outputs = std::make_unique<RunOutputs>();
+  outputs->add(openOutput(request.output, scenario, request.truth_odom, ros), request.every);
   if (!request.contacts.empty()) {
-    output = std::make_unique<ContactsCsvWriter>(request.contacts, std::move(output));
+    outputs->add(std::make_unique<ContactsCsvWriter>(request.contacts), request.every);
   }
   if (!request.actuators.empty()) {
-    output = std::make_unique<ActuatorsCsvWriter>(request.actuators, scenario, std::move(output));
+    const Tick every = request.actuators_every > 0 ? request.actuators_every : request.every;
+    outputs->add(std::make_unique<ActuatorsCsvWriter>(request.actuators, scenario), every);
   }
   if (!request.cushion.empty()) {
-    output = std::make_unique<CushionCsvWriter>(request.cushion, scenario, std::move(output));
+    const Tick every = request.cushion_every > 0 ? request.cushion_every : request.every;
+    outputs->add(std::make_unique<CushionCsvWriter>(request.cushion, scenario), every);
   }
   if (!request.sensors.empty()) {
-    output = std::make_unique<SensorsCsvWriter>(request.sensors, scenario, filesOf(request),
-                                                std::move(output));
+    outputs->add(std::make_unique<SensorsCsvWriter>(request.sensors, scenario, filesOf(request)),
+                 request.every);
   }
-  return output;
+  return outputs;
 }
 
 /// No engine and no other actuator times out.
@@ -246,12 +260,12 @@ RunSummary simulate(const SimulateRequest& request, std::ostream& messages, RosF
   if (request.hold) holdCommands(scenario);
   CraftPilots pilots(request.pilots, scenario);
   RunPlan plan;
-  plan.every = request.every;
   plan.last_tick = lastTickOf(request, scenario, pilots, ros);
   const std::unique_ptr<CommandSource> commands =
       request.commands.empty() ? std::make_unique<NoCommands>()
                                : openCommands(request.commands, scenario, ros);
-  std::unique_ptr<StateSink> output = openOutputs(request, scenario, ros);
+  std::unique_ptr<RunOutputs> outputs = openOutputs(request, scenario, ros);
+  plan.every = outputs->every();
   Simulation simulation(scenario);
 
   std::optional<ProgressBar> bar;
@@ -259,7 +273,7 @@ RunSummary simulate(const SimulateRequest& request, std::ostream& messages, RosF
     bar.emplace(messages, plan.last_tick);
     plan.on_progress = [&bar](Tick tick) { bar->show(tick); };
   }
-  TimedSink timed(std::move(output));
+  TimedObserver timed(std::move(outputs));
   if (!request.pilots.empty()) {
     // With a duration it is the end, else that of the last pilot.
     plan.steer = [&](Simulation& now) {

@@ -21,7 +21,7 @@ CraftPilots::CraftPilots(const std::vector<std::string>& paths, const Scenario& 
   told_.assign(pilots_.size(), 0);
 }
 
-bool CraftPilots::steer(Simulation& simulation, StateSink& sink) {
+bool CraftPilots::steer(Simulation& simulation, RunObserver& observer) {
   const Tick tick = simulation.tick();
   bool all_over = true;
   for (std::size_t i = 0; i < pilots_.size(); ++i) {
@@ -31,7 +31,7 @@ bool CraftPilots::steer(Simulation& simulation, StateSink& sink) {
       simulation.push(
           pilot.decide({tick, motion.p_WB, motion.q_WB, motion.twist.v_WB, motion.twist.w_WB}));
       for (; told_[i] < pilot.flown().size(); ++told_[i]) {
-        sink.flown(pilot.flown()[told_[i]], pilot.vehicle(), tick);
+        observer.flown(pilot.flown()[told_[i]], pilot.vehicle(), tick);
       }
     }
     all_over = all_over && pilot.isOver();

@@ -59,21 +59,33 @@ class TimeoutWatch {
   std::vector<Watched> engines_;
 };
 
+/// Of a simulation by an observer, while this lives.
+class Observation {
+ public:
+  Observation(Simulation& simulation, RunObserver& observer) : simulation_(simulation) {
+    simulation_.observe(&observer);
+  }
+  Observation(const Observation&) = delete;
+  Observation& operator=(const Observation&) = delete;
+  ~Observation() { simulation_.observe(nullptr); }
+
+ private:
+  Simulation& simulation_;
+};
+
 }  // namespace
 
-RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
+RunSummary run(Simulation& simulation, CommandSource& commands, RunObserver& observer,
                const RunPlan& plan) {
   demand(plan.every > 0, "a run puts out every n-th tick, n > 0");
   TimeoutWatch watch(simulation);
-  simulation.on_applied = [&sink](const Command& command) { sink.applied(command); };
-  simulation.on_contact = [&sink](const ContactEvent& event) { sink.contact(event); };
-  simulation.on_sample = [&sink](const SensorSample& sample) { sink.sample(sample); };
+  const Observation observation(simulation, observer);
   std::optional<Command> waiting = commands.next();
   Tick next_output = simulation.tick();
   while (true) {
     const Tick tick = simulation.tick();
     if (tick == next_output) {
-      sink.state(simulation);
+      observer.state(simulation);
       next_output += plan.every;
     }
     if (tick >= plan.last_tick || (plan.steer && !plan.steer(simulation))) break;
@@ -82,10 +94,7 @@ RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
     watch.look(tick);
     if (plan.on_progress && tick % kProgressInterval == 0) plan.on_progress(tick);
   }
-  simulation.on_applied = nullptr;
-  simulation.on_contact = nullptr;
-  simulation.on_sample = nullptr;
-  sink.close();
+  observer.close();
   return {watch.found(), simulation.hash()};
 }
 

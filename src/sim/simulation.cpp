@@ -14,6 +14,7 @@
 #include "hovercraft_sim/scenario/sensor_builder.h"
 #include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/divergence.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/state_hash.h"
 
 namespace hovercraft {
@@ -193,7 +194,7 @@ void Simulation::applyDueCommands() {
       engine.commanded = command->thrusts[i];
       engine.command_tick = state_.tick;
     }
-    if (on_applied) on_applied(*command);
+    if (observer_ != nullptr) observer_->applied(*command);
   }
 }
 
@@ -232,7 +233,7 @@ void Simulation::step() {
   applyDueCommands();
   endWrenches();
   {
-    // Read here, as on_applied may have changed it; the callbacks find that of the caller.
+    // Read here, as the observer may have changed it, which finds that of the caller.
     const FloatingPointEnvironment environment;
     prepareInputs();
     const int lost = world_.step(inputs_, state_.bodies, state_.contacts, result_);
@@ -241,9 +242,9 @@ void Simulation::step() {
   }
   ++state_.tick;
   if (gusts_) blow();
-  if (on_contact) {
+  if (observer_ != nullptr) {
     sortRecords();
-    for (const ContactRecord& record : result_.records) on_contact(eventOf(record));
+    for (const ContactRecord& record : result_.records) observer_->contact(eventOf(record));
   }
   if (sensors_) readSensors();
 }
@@ -278,7 +279,7 @@ void Simulation::sortRecords() {
   }
 }
 
-/// What on_contact is told of a record of the step that just ended.
+/// What the observer is told of a record of the step that just ended.
 ContactEvent Simulation::eventOf(const ContactRecord& record) const {
   const FloatingPointEnvironment environment;
   const std::int64_t begin_ns = (state_.tick - 1) * scenario_.step_ns;

@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/state_hash.h"
 
@@ -22,7 +23,10 @@ void Simulation::readSensors() {
     const FloatingPointEnvironment environment;
     sensors_->sample(state_.seed, state_.tick, sensedBodies(), state_.sensors);
   }
-  sensors_->deliver(state_.tick, state_.sensors, on_sample);
+  const auto tell = [this](const SensorSample& sample) {
+    if (observer_ != nullptr) observer_->sample(sample);
+  };
+  sensors_->deliver(state_.tick, state_.sensors, tell);
 }
 
 Tick Simulation::nextSampleTick() const {

@@ -39,6 +39,10 @@ po::options_description optionsOf(hovercraft::SimulateRequest& request) {
       "sensor is on odom");
   add("every,e", po::value(&request.every)->default_value(request.every),
       "put out every N-th tick");
+  add("actuators-every", po::value(&request.actuators_every),
+      "actuators every N-th tick; default: as --every");
+  add("cushion-every", po::value(&request.cushion_every),
+      "cells of cushions every N-th tick; default: as --every");
   add("hold", po::bool_switch(&request.hold), "commands hold for ever: no engine times out");
   add("help,h", "this text");
   add("version", "of the package, and of the physics");

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/bags/replay.h"
 #include "hovercraft_sim/bags/simulate.h"
 #include "hovercraft_sim/messages/conversions.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/contact_messages.h"
@@ -35,7 +36,8 @@ class RecordedContacts : public ::testing::Test {
     request_.contacts = folder_.file("contacts.csv");
     std::ostringstream messages;
     simulate(request_, messages);
-    core_.on_contact = [this](const ContactEvent& event) { expected_.push_back(event); };
+    core_.observe(&told_);
+    told_.on_contact = [this](const ContactEvent& event) { expected_.push_back(event); };
     while (core_.tick() < 1000) core_.step();
     ASSERT_GT(expected_.size(), 10U);
   }
@@ -61,6 +63,7 @@ class RecordedContacts : public ::testing::Test {
 
   TestFolder folder_;
   SimulateRequest request_;
+  hovercraft::RunCallbacks told_;
   hovercraft::Simulation core_{loadScenarioFile("config/tumble.yaml")};
   std::vector<ContactEvent> expected_;
 };

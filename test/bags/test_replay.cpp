@@ -45,7 +45,8 @@ class RecordedRun : public ::testing::Test {
   void SetUp() override {
     recording_.scenario = scenario_;
     recording_.scenario_text = hovercraft::toYaml(scenario_);
-    run_.simulation().on_applied = [this](const Command& command) {
+    run_.simulation().observe(&told_);
+    told_.on_applied = [this](const Command& command) {
       recording_.commands.push_back({now(), command});
       messages_[command.vehicle].appliedCommand(command, run_.place());
     };
@@ -93,6 +94,7 @@ class RecordedRun : public ::testing::Test {
   }
 
   Scenario scenario_ = scenarioOf(twoCraftYaml());
+  hovercraft::RunCallbacks told_;
   LiveRun run_{scenario_, 0};
   std::vector<VehicleMessages> messages_{{scenario_, 0}, {scenario_, 1}};
   Recording recording_;
@@ -198,20 +200,31 @@ TEST_F(RecordedRun, AnotherMassParts) {
   EXPECT_EQ(result.difference->time.tick, 10);
 }
 
+/// What the last load of a replay made.
+class ToldLoads : public RecordingObserver {
+ public:
+  void event(const RunEvent& event, const hovercraft::Simulation& simulation) override {
+    if (event.kind != RunEvent::LOAD) return;
+    velocity = simulation.motion(1).twist.v_WB;
+    wind = simulation.state().wind_W;
+    gusts = simulation.state().gusts.size();
+  }
+
+  hovercraft::Vector3 velocity = hovercraft::Vector3::Zero();
+  hovercraft::Vector3 wind = hovercraft::Vector3::Zero();
+  std::size_t gusts = 0;
+};
+
 TEST_F(RecordedRun, ALoadGivesAChangedScenarioTheMotionOfTheSnapshot) {
   Scenario heavier = scenario_;
   heavier.vehicles[1].mass_properties.mass *= 2.0;
   heavier.orientation = hovercraft::OrientationKind::kMatrix;
-  hovercraft::Vector3 loaded;
-  ReplayObserver observer;
-  observer.on_event = [&loaded](const RunEvent& event, const hovercraft::Simulation& simulation) {
-    if (event.kind == RunEvent::LOAD) loaded = simulation.motion(1).twist.v_WB;
-  };
-  replay(recording_, heavier, false, observer);
+  ToldLoads told;
+  replay(recording_, heavier, false, &told);
   hovercraft::Simulation expected(scenario_);
   applyEvent(recording_.events.back(), expected);
-  EXPECT_LT(hovercraft::norm(loaded - expected.motion(1).twist.v_WB), 1e-15);
-  EXPECT_GT(hovercraft::norm(loaded), 0.1);
+  EXPECT_LT(hovercraft::norm(told.velocity - expected.motion(1).twist.v_WB), 1e-15);
+  EXPECT_GT(hovercraft::norm(told.velocity), 0.1);
 }
 
 TEST_F(RecordedRun, ALoadGivesAChangedScenarioItsOwnAir) {
@@ -219,17 +232,10 @@ TEST_F(RecordedRun, ALoadGivesAChangedScenarioItsOwnAir) {
   windy.wind = {2.0, 0.0, 0.0};
   const hovercraft::GustAxis level = {0.2, 20.0};
   windy.gusts = hovercraft::GustParameters{hovercraft::GustModel::kFirstOrder, level, level, {}};
-  hovercraft::Vector3 wind = hovercraft::Vector3::Zero();
-  std::size_t gusts = 0;
-  ReplayObserver observer;
-  observer.on_event = [&](const RunEvent& event, const hovercraft::Simulation& simulation) {
-    if (event.kind != RunEvent::LOAD) return;
-    wind = simulation.state().wind_W;
-    gusts = simulation.state().gusts.size();
-  };
-  replay(recording_, windy, false, observer);
-  EXPECT_EQ(wind, windy.wind);
-  EXPECT_EQ(gusts, scenario_.vehicles.size());
+  ToldLoads told;
+  replay(recording_, windy, false, &told);
+  EXPECT_EQ(told.wind, windy.wind);
+  EXPECT_EQ(told.gusts, scenario_.vehicles.size());
 }
 
 /// Which messages get lost on the way into a bag.

@@ -17,6 +17,7 @@
 #include <ros/service.h>
 
 #include "hovercraft_sim/messages/conversions.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/contact_messages.h"
@@ -146,7 +147,9 @@ struct Flight {
     const hovercraft::Scenario scenario = recording.scenario();
     hovercraft::Simulation simulation(scenario);
     std::vector<hovercraft::ContactEvent> expected;
-    simulation.on_contact = [&expected](const hovercraft::ContactEvent& event) {
+    hovercraft::RunCallbacks told;
+    simulation.observe(&told);
+    told.on_contact = [&expected](const hovercraft::ContactEvent& event) {
       expected.push_back(event);
     };
     for (const hovercraft::Command& command : recording.commands(scenario)) {

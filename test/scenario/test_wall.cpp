@@ -8,6 +8,7 @@
 #include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/scenario/wall.h"
 #include "hovercraft_sim/scenario/world_builder.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/files.h"
@@ -67,7 +68,9 @@ TEST(Wall, ACraftSlidesRoundAPolygonOf64SidesAndNothingCatches) {
       Simulation simulation(scenario);
       double worst = 0.0;
       std::size_t contacts = 0;
-      simulation.on_contact = [&](const ContactEvent& contact) {
+      RunCallbacks told;
+      simulation.observe(&told);
+      told.on_contact = [&](const ContactEvent& contact) {
         worst = std::max(worst, offNormal(contact.nhat_AB_W));
         EXPECT_EQ(contact.b, "track");
         ++contacts;

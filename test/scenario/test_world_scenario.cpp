@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
@@ -63,7 +64,9 @@ TEST(WorldScenario, TheOrderInWhichBodiesAreNamedDoesNotMatter) {
   Simulation a(parsed(text));
   Simulation b(parsed(swapped));
   int contacts = 0;
-  a.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
+  RunCallbacks told;
+  a.observe(&told);
+  told.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
   for (int i = 0; i < 300; ++i) {
     a.step();
     b.step();
@@ -164,7 +167,9 @@ TEST(WorldScenario, MassesOfBodiesThatMeetAreWithinAFactorOfTenThousand) {
 TEST(WorldScenario, ARunGoesOnFromASnapshotAsIfItHadNeverStopped) {
   Simulation whole(parsed(worldText()));
   std::vector<ContactEvent> contacts;
-  whole.on_contact = [&contacts](const ContactEvent& event) { contacts.push_back(event); };
+  RunCallbacks told;
+  whole.observe(&told);
+  told.on_contact = [&contacts](const ContactEvent& event) { contacts.push_back(event); };
   whole.push({0, 0, kAllEngines, Vector3(3.0, 0.0, 0.0)});
   for (int i = 0; i < 200; ++i) whole.step();
   EXPECT_FALSE(contacts.empty());
@@ -219,7 +224,9 @@ void expectNoOverlap(const std::string& name, const Vector3& thrusts) {
   Simulation simulation(loadScenario("config/" + name + ".yaml"));
   simulation.push({0, 0, kAllEngines, thrusts});
   int contacts = 0;
-  simulation.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
   double least = 1.0;
   for (int i = 0; i < 4000; ++i) {
     simulation.step();

@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/sim/batch.h"
 #include "hovercraft_sim/sim/command_log.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/allocation_counter.h"
@@ -30,7 +31,9 @@ TEST(Allocations, AreCounted) {
 long allocationsWhileDriven(const Scenario& scenario) {
   Simulation simulation(scenario);
   std::uint64_t applied = 0;
-  simulation.on_applied = [&applied](const Command& /*command*/) { ++applied; };
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_applied = [&applied](const Command& /*command*/) { ++applied; };
   const auto advance = [&] {
     const Tick tick = simulation.tick();
     simulation.push({tick, 0, kAllEngines, {1.0, 0.5, 0.25}});
@@ -76,7 +79,9 @@ TEST(Allocations, NoneInAStepWithEverySensor) {
   Simulation simulation(testing::scenarioOf(
       testing::sensedCraftYaml(testing::allSensors() + testing::laserSensor())));
   std::uint64_t count = 0;
-  simulation.on_sample = [&count](const SensorSample& /*sample*/) { ++count; };
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_sample = [&count](const SensorSample& /*sample*/) { ++count; };
   simulation.step();
   const long before = allocations;
   for (int n = 0; n < 1000; ++n) simulation.step();
@@ -107,7 +112,9 @@ TEST(Allocations, NoneInAStepWithContactsOnceWarmedUp) {
     obstacle.name += " with a name that takes memory";
   Simulation simulation(scenario);
   int contacts = 0;
-  simulation.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_contact = [&contacts](const ContactEvent& /*event*/) { ++contacts; };
   const auto fly = [&simulation] {
     for (int i = 0; i < 2500; ++i) simulation.step();
   };

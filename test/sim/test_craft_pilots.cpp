@@ -15,16 +15,14 @@ namespace hovercraft {
 namespace {
 
 /// What a run told.
-class ToldManoeuvres : public StateSink {
+class ToldManoeuvres : public RunObserver {
  public:
-  void state(const Simulation& /*simulation*/) override {}
   void applied(const Command& command) override { commands.push_back(command); }
   void flown(const FlownManoeuvre& manoeuvre, std::size_t vehicle, Tick tick) override {
     manoeuvres.push_back(manoeuvre);
     vehicles.push_back(vehicle);
     ticks.push_back(tick);
   }
-  void close() override {}
 
   std::vector<Command> commands;
   std::vector<FlownManoeuvre> manoeuvres;

@@ -23,6 +23,7 @@
 #include "hovercraft_sim/math/elementary.h"
 #include "hovercraft_sim/math/rotation.h"
 #include "hovercraft_sim/scenario/world_builder.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/state_hash.h"
@@ -71,7 +72,9 @@ std::string scenarioWithContact() {
 Bits flown(const std::string& text, Tick ticks) {
   Simulation simulation(parsed(text));
   StateHash reports;
-  simulation.on_contact = [&reports](const ContactEvent& event) {
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_contact = [&reports](const ContactEvent& event) {
     reports.add(event.time);
     reports.add(event.time_ns);
     reports.add(event.impulse_B_W);
@@ -107,7 +110,9 @@ TEST(ForeignEnvironment, ARunWithContactIsTheSame) {
   const std::string text = scenarioWithContact();
   Simulation simulation(parsed(text));
   int contacts = 0;
-  simulation.on_contact = [&contacts](const ContactEvent&) { ++contacts; };
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_contact = [&contacts](const ContactEvent&) { ++contacts; };
   for (int i = 0; i < 400; ++i) simulation.step();
   ASSERT_GT(contacts, 0);
   expectSameBits("contact", [&text] { return flown(text, 400); });
@@ -132,7 +137,9 @@ TEST(ForeignEnvironment, ACallbackMayChangeItAndFindsTheCallers) {
   Simulation simulation(parsed(validScenario()));
   Simulation disturbed(parsed(validScenario()));
   int seen = 0;
-  disturbed.on_applied = [&seen](const Command&) {
+  RunCallbacks told;
+  disturbed.observe(&told);
+  told.on_applied = [&seen](const Command&) {
     seen = std::fegetround();
     std::fesetround(FE_UPWARD);
   };

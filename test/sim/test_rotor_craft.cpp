@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
@@ -150,7 +151,9 @@ TEST(RotorCraft, RestsOnTheGroundAndItsGyroscopeReadsNothing) {
   Simulation simulation(parsed(text));
   double turn = 0.0;
   std::size_t samples = 0;
-  simulation.on_sample = [&](const SensorSample& sample) {
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_sample = [&](const SensorSample& sample) {
     ++samples;
     // Angular velocity, then specific force.
     for (std::size_t i = 0; i < 3; ++i) turn = std::max(turn, std::abs(sample.values[i]));

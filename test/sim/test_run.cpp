@@ -41,7 +41,7 @@ class ListedCommands : public CommandSource {
 };
 
 /// Keeps what it is given; looks at how far ahead the source was read.
-class KeptStates : public StateSink {
+class KeptStates : public RunObserver {
  public:
   void state(const Simulation& simulation) override {
     EXPECT_FALSE(is_closed);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/scenario_text.h"
@@ -70,7 +71,9 @@ TEST(Simulation, CommandsTakeEffectAtTheirTick) {
   vehicle.initial_rpy = vehicle.initial_v_WB = vehicle.initial_w_WB = Vector3::Zero();
   Simulation simulation(scenario);
   std::vector<Tick> applied;
-  simulation.on_applied = [&](const Command& command) {
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_applied = [&](const Command& command) {
     EXPECT_EQ(command.thrusts[0], 4.5);
     applied.push_back(simulation.tick());
   };

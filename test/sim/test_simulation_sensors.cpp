@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
@@ -37,14 +38,24 @@ struct Recorded {
 };
 using Recording = std::map<std::string, std::vector<Recorded>>;  // by the sensor's name
 
-void recordInto(Recording& recording, Simulation& simulation) {
-  simulation.on_sample = [&recording, &simulation](const SensorSample& sample) {
-    const auto& vehicle = simulation.scenario().vehicles[sample.vehicle];
-    recording[vehicle.sensors[sample.sensor].name].push_back(
+/// Keeps the samples of a simulation, as long as it lives.
+class SampleRecorder : public RunObserver {
+ public:
+  SampleRecorder(Recording& recording, Simulation& simulation)
+      : recording_(recording), scenario_(simulation.scenario()) {
+    simulation.observe(this);
+  }
+  void sample(const SensorSample& sample) override {
+    const auto& vehicle = scenario_.vehicles[sample.vehicle];
+    recording_[vehicle.sensors[sample.sensor].name].push_back(
         {sample.measured, sample.delivered,
          std::vector<double>(sample.values, sample.values + sample.count)});
-  };
-}
+  }
+
+ private:
+  Recording& recording_;
+  const Scenario& scenario_;
+};
 
 void flySensed(Simulation& simulation, Tick ticks) {
   for (const Tick end = simulation.tick() + ticks; simulation.tick() < end; simulation.step()) {
@@ -57,7 +68,7 @@ void flySensed(Simulation& simulation, Tick ticks) {
 Recording samplesOf(const std::string& text, Tick ticks = 2000) {
   Simulation simulation(testing::scenarioOf(text));
   Recording recording;
-  recordInto(recording, simulation);
+  const SampleRecorder recorder(recording, simulation);
   flySensed(simulation, ticks);
   return recording;
 }
@@ -132,8 +143,8 @@ TEST(SimulationSensors, ARunFromASnapshotGivesTheSamplesOfTheRunThatNeverStopped
   EXPECT_EQ(resumed.sensorHash(), unbroken.sensorHash());
   Recording a;
   Recording b;
-  recordInto(a, unbroken);
-  recordInto(b, resumed);
+  const SampleRecorder of_unbroken(a, unbroken);
+  const SampleRecorder of_resumed(b, resumed);
   flySensed(unbroken, 800);
   flySensed(resumed, 800);
   EXPECT_EQ(a, b);
@@ -148,7 +159,7 @@ TEST(SimulationSensors, AResetBeginsAnewWithItsSeed) {
   flySensed(simulation, 777);
   simulation.reset(1);
   Recording again;
-  recordInto(again, simulation);
+  const SampleRecorder recorder(again, simulation);
   flySensed(simulation, 2000);
   EXPECT_EQ(again, first);
 }
@@ -157,7 +168,7 @@ TEST(SimulationSensors, ACraftThatIsPutElsewhereFeelsNoBlow) {
   const std::string imu = "    sensors: {imu: {kind: imu, rate: 100}}\n";
   Simulation simulation(testing::scenarioOf(scenarioText(imu)));
   Recording recording;
-  recordInto(recording, simulation);
+  const SampleRecorder recorder(recording, simulation);
   for (int n = 0; n < 15; ++n) simulation.step();
   simulation.setMotion(0, {-5.0, 0.0, 0.0}, Quaternion::identity(),
                        {{0.0, 3.0, 0.0}, Vector3::Zero()});
@@ -174,7 +185,7 @@ TEST(SimulationSensors, AnImuFeelsTheThrust) {
   const std::string imu = "    sensors: {imu: {kind: imu, rate: 100}}\n";
   Simulation simulation(testing::scenarioOf(scenarioText(imu)));
   Recording recording;
-  recordInto(recording, simulation);
+  const SampleRecorder recorder(recording, simulation);
   simulation.push({0, 0, maskOf(EngineId::kRear), {2.0, 0.0, 0.0}});
   for (int n = 0; n < 30; ++n) simulation.step();
   for (const Recorded& sample : recording.at("imu")) {
@@ -186,7 +197,9 @@ TEST(SimulationSensors, AnImuFeelsTheThrust) {
 TEST(SimulationSensors, TheNextSampleIsForetold) {
   Simulation simulation(testing::scenarioOf(wholeText()));
   Tick last = 0;
-  simulation.on_sample = [&](const SensorSample& sample) { last = sample.delivered; };
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_sample = [&](const SensorSample& sample) { last = sample.delivered; };
   for (int n = 0; n < 1000; ++n) {
     const Tick foretold = simulation.nextSampleTick();
     EXPECT_GT(foretold, simulation.tick());

@@ -11,6 +11,7 @@
 #include <ros/serialization.h>
 
 #include "hovercraft_sim/messages/vehicle_messages.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_ros::testing {
@@ -93,7 +94,9 @@ void expectEqualsCoreRun(const Recording& recording) {
     ASSERT_FALSE(tracks.back().engines.empty());
     last_tick = std::max(last_tick, tracks.back().lastTick());
   }
-  simulation.on_applied = [&tracks](const hovercraft::Command& command) {
+  hovercraft::RunCallbacks told;
+  simulation.observe(&told);
+  told.on_applied = [&tracks](const hovercraft::Command& command) {
     tracks[command.vehicle].expected.appliedCommand(command, {});
   };
   while (static_cast<std::uint64_t>(simulation.tick()) < last_tick) {

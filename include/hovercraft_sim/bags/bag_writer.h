@@ -10,19 +10,19 @@
 #include <ros/time.h>
 #include <rosbag/bag.h>
 
+#include "hovercraft_sim/bags/recording_observer.h"
 #include "hovercraft_sim/io/output_file.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/messages/body_messages.h"
 #include "hovercraft_sim/messages/sensor_messages.h"
 #include "hovercraft_sim/messages/vehicle_messages.h"
-#include "hovercraft_sim/sim/run.h"
 
 namespace hovercraft_ros {
 
 /// Writes a run into a bag with the topics of the node (design: ROS interface), stamped and
 /// received at n·h. ROS takes time 0 for no time: the state of tick 0 is left out, and what takes
 /// effect then (commands, static transforms, the scenario) is recorded at tick 1.
-class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
+class HOVERCRAFT_PUBLIC BagWriter : public RecordingObserver {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
   /// @param truth_odom topic of the true odometry; with another name than odom, the first odometry
@@ -42,7 +42,8 @@ class HOVERCRAFT_PUBLIC BagWriter : public hovercraft::StateSink {
 
   /// An event that was just applied, at the tick and of the episode that it names. After one that
   /// begins an episode, stamps go on while ticks count anew, as in the node.
-  void event(const hovercraft_sim::RunEvent& event, const hovercraft::Simulation& simulation);
+  void event(const hovercraft_sim::RunEvent& event,
+             const hovercraft::Simulation& simulation) override;
 
  private:
   /// Closes and deletes. On a full disk closing throws, and would again in the destructor of

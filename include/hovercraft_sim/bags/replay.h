@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
+#include "hovercraft_sim/bags/recording_observer.h"
 #include "hovercraft_sim/bags/recording_reader.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/messages/vehicle_messages.h"
@@ -37,26 +37,17 @@ struct ReplayResult {
   std::uint64_t unknown_states = 0;
 };
 
-/// What a replay hands on, each at its time; any may be empty.
-struct ReplayObserver {
-  std::function<void(const hovercraft::Simulation&)> on_state;  // where the recording holds a state
-  std::function<void(const hovercraft::Command&)> on_applied;
-  std::function<void(const hovercraft::ContactEvent&)> on_contact;
-  hovercraft::SampleSink on_sample;
-  /// After the event was applied.
-  std::function<void(const hovercraft_sim::RunEvent&, const hovercraft::Simulation&)> on_event;
-};
-
 /// Runs again what a recording holds, commands and events at their ticks, and compares every
 /// recorded state, and message of a sensor, bit for bit until the first difference or the first
 /// gap.
 /// @param scenario that it runs in; that of the recording, or another one to see what would have
 /// been; a snapshot that was loaded then gives it the motion, not the momenta.
+/// @param observer null: nobody is told.
 /// @throws std::invalid_argument that names the recording and the event if one does not fit the
 /// scenario.
 HOVERCRAFT_PUBLIC ReplayResult replay(const Recording& recording,
                                       const hovercraft::Scenario& scenario, bool compares,
-                                      const ReplayObserver& observer = {});
+                                      RecordingObserver* observer = nullptr);
 
 /// What the tool `replay` was asked for.
 struct ReplayRequest {

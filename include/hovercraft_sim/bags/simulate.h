@@ -22,7 +22,7 @@ HOVERCRAFT_PUBLIC hovercraft::Scenario loadScenarioFile(
 HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::CommandSource> openCommands(
     const std::string& path, const hovercraft::Scenario& scenario);
 
-HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::StateSink> openOutput(
+HOVERCRAFT_PUBLIC std::unique_ptr<hovercraft::RunObserver> openOutput(
     const std::string& path, const hovercraft::Scenario& scenario,
     const std::string& truth_odom = hovercraft::kDefaultTruthOdom);
 

@@ -31,6 +31,7 @@
 #include "hovercraft_sim/pacing/lockstep.h"
 #include "hovercraft_sim/pacing/pacer.h"
 #include "hovercraft_sim/pacing/warning_limiter.h"
+#include "hovercraft_sim/sim/run_observer.h"
 
 namespace hovercraft_ros {
 
@@ -38,14 +39,12 @@ namespace hovercraft_ros {
 /// the world; between steps it waits on the callback queue, so that a message or a service is
 /// handled at once, also while the simulation is paused. It wakes for the ticks that something is
 /// published at, and makes the steps before them together.
-class HOVERCRAFT_PUBLIC HovercraftNode {
+class HOVERCRAFT_PUBLIC HovercraftNode : private hovercraft::RunObserver {
  public:
   /// @param handle of the namespace that the craft's namespaces lie in. @param private_handle the
   /// node's own.
   HovercraftNode(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
                  NodeConfig config);
-  HovercraftNode(const HovercraftNode&) = delete;
-  HovercraftNode& operator=(const HovercraftNode&) = delete;
 
   /// Steps at the wanted pace until ROS is shut down, or the node is told to stop.
   void run();
@@ -75,6 +74,9 @@ class HOVERCRAFT_PUBLIC HovercraftNode {
   void apply(const hovercraft_sim::RunEvent& event);
 
  private:
+  void applied(const hovercraft::Command& command) override;
+  void contact(const hovercraft::ContactEvent& event) override;
+  void sample(const hovercraft::SensorSample& sample) override;
   static bool goesOn();
   void addVehicle(const ros::NodeHandle& handle, std::size_t vehicle);
   void addBody(const ros::NodeHandle& handle, std::size_t body);

@@ -68,7 +68,7 @@ std::vector<ActuatorRow> actuatorRows(const hovercraft::Simulation& simulation,
                                       std::size_t vehicle);
 
 /// Keeps a run in memory.
-class Recorder : public hovercraft::StateSink {
+class Recorder : public hovercraft::RunObserver {
  public:
   /// More than this is refused: it is rather a mistake than a run.
   static constexpr std::size_t kMostBytes = std::size_t{4} << 30U;
@@ -81,7 +81,6 @@ class Recorder : public hovercraft::StateSink {
   void state(const hovercraft::Simulation& simulation) override;
   void contact(const hovercraft::ContactEvent& event) override;
   void sample(const hovercraft::SensorSample& sample) override;
-  void close() override {}
 
   Recording recording;
 

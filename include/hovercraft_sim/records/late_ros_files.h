@@ -26,8 +26,8 @@ class LateRosFiles : public RosFiles {
                                               const Scenario& scenario) override {
     return loaded().openCommands(path, scenario);
   }
-  std::unique_ptr<StateSink> openOutput(const std::string& path, const Scenario& scenario,
-                                        const std::string& truth_odom) override {
+  std::unique_ptr<RunObserver> openOutput(const std::string& path, const Scenario& scenario,
+                                          const std::string& truth_odom) override {
     return loaded().openOutput(path, scenario, truth_odom);
   }
   void checkTruthOdom(const std::string& topic) override { loaded().checkTruthOdom(topic); }

@@ -31,8 +31,8 @@ class RosFiles {
   virtual std::unique_ptr<CommandSource> openCommands(const std::string& path,
                                                       const Scenario& scenario) = 0;
   /// A bag of a run. @throws std::invalid_argument if it cannot be opened for writing.
-  virtual std::unique_ptr<StateSink> openOutput(const std::string& path, const Scenario& scenario,
-                                                const std::string& truth_odom) = 0;
+  virtual std::unique_ptr<RunObserver> openOutput(const std::string& path, const Scenario& scenario,
+                                                  const std::string& truth_odom) = 0;
   /// @throws std::invalid_argument with the rule if it is no topic for the true odometry.
   virtual void checkTruthOdom(const std::string& topic) = 0;
 };
@@ -51,10 +51,10 @@ HOVERCRAFT_PUBLIC std::unique_ptr<CommandSource> openCommands(const std::string&
 /// A bag if the name ends in .bag; CSV if it ends in .csv or is `-` (the standard output).
 /// @param truth_odom of a bag, see BagWriter.
 /// @throws std::invalid_argument if it is neither, or cannot be opened for writing.
-HOVERCRAFT_PUBLIC std::unique_ptr<StateSink> openOutput(const std::string& path,
-                                                        const Scenario& scenario,
-                                                        const std::string& truth_odom,
-                                                        RosFiles& ros);
+HOVERCRAFT_PUBLIC std::unique_ptr<RunObserver> openOutput(const std::string& path,
+                                                          const Scenario& scenario,
+                                                          const std::string& truth_odom,
+                                                          RosFiles& ros);
 
 /// What the tool `simulate` was asked for.
 struct SimulateRequest {
@@ -70,6 +70,8 @@ struct SimulateRequest {
   std::string sensors;    // folder of CSV files, one a sensor; empty: none
   std::string truth_odom = kDefaultTruthOdom;  // in a bag, the topic of the true odometry
   Tick every = 1;                              // ticks from one output to the next
+  Tick actuators_every = 0;                    // of the file of actuators; 0: as every
+  Tick cushion_every = 0;                      // of the file of cushions; 0: as every
   bool hold = false;                           // commands hold for ever: every time-out is 0
   bool shows_progress = false;                 // a bar, while it runs
 };

@@ -7,7 +7,7 @@
 #include "hovercraft_sim/io/output_file.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/records/trajectory.h"
-#include "hovercraft_sim/sim/run.h"
+#include "hovercraft_sim/sim/run_observer.h"
 
 namespace hovercraft {
 
@@ -15,7 +15,7 @@ namespace hovercraft {
 /// rad/s; position of the centre of mass and both velocities in world axes, q = B -> W. Of several
 /// vehicles and loose bodies each has its row, with its name in a column `vehicle` after the time.
 /// Times are exact; the other numbers have the digits that tell one double from the next.
-class HOVERCRAFT_PUBLIC StatesCsvWriter : public StateSink {
+class HOVERCRAFT_PUBLIC StatesCsvWriter : public RunObserver {
  public:
   /// @param path `-` is the standard output.
   /// @throws std::invalid_argument if it cannot be opened for writing.

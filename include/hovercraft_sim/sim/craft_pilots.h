@@ -17,9 +17,9 @@ class HOVERCRAFT_PUBLIC CraftPilots {
   /// for one craft.
   CraftPilots(const std::vector<std::string>& paths, const Scenario& scenario);
 
-  /// RunPlan::steer: pushes the commands that are due at the simulation's tick, and tells the sink
-  /// of manoeuvres that ended. @returns false when every pilot is over.
-  bool steer(Simulation& simulation, StateSink& sink);
+  /// RunPlan::steer: pushes the commands that are due at the simulation's tick, and tells the
+  /// observer of manoeuvres that ended. @returns false when every pilot is over.
+  bool steer(Simulation& simulation, RunObserver& observer);
 
   const std::vector<CraftPilot>& pilots() const { return pilots_; }
   /// An upper bound of the tick at which all are over.
@@ -27,7 +27,7 @@ class HOVERCRAFT_PUBLIC CraftPilots {
 
  private:
   std::vector<CraftPilot> pilots_;
-  std::vector<std::size_t> told_;  // manoeuvres of each that the sink knows
+  std::vector<std::size_t> told_;  // manoeuvres of each that the observer knows
 };
 
 }  // namespace hovercraft

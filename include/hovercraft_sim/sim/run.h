@@ -7,33 +7,11 @@
 
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/time.h"
-#include "hovercraft_sim/pilot/pilot.h"
 #include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft {
-
-/// Where the states of a run go.
-class StateSink {
- public:
-  StateSink() = default;
-  StateSink(const StateSink&) = delete;
-  StateSink& operator=(const StateSink&) = delete;
-  virtual ~StateSink() = default;
-
-  /// The simulation at a tick of output, before the commands of that tick.
-  virtual void state(const Simulation& simulation) = 0;
-  /// A command that takes effect at its tick.
-  virtual void applied(const Command& /*command*/) {}
-  /// A contact, when the step in which it happened is done, before the state after it.
-  virtual void contact(const ContactEvent& /*event*/) {}
-  /// A sample of a sensor, at the tick of its delivery, before the state of that tick.
-  virtual void sample(const SensorSample& /*sample*/) {}
-  /// A manoeuvre that was flown with a craft and ended at a tick, before the step from it.
-  virtual void flown(const FlownManoeuvre& /*manoeuvre*/, std::size_t /*vehicle*/, Tick /*tick*/) {}
-  /// The run is over and was whole. @throws std::invalid_argument if it could not all be written.
-  virtual void close() = 0;
-};
 
 struct RunPlan {
   Tick last_tick = 0;  // where the run ends
@@ -59,11 +37,11 @@ struct RunSummary {
   std::uint64_t hash = 0;               // Simulation::hash() at the end
 };
 
-/// Steps a simulation to the plan's last tick as fast as it goes: commands from the source, states
-/// to the sink, which is closed at the end.
-/// @param simulation at the beginning of the run; its on_applied, on_contact and on_sample are
-/// taken over.
-HOVERCRAFT_PUBLIC RunSummary run(Simulation& simulation, CommandSource& commands, StateSink& sink,
-                                 const RunPlan& plan);
+/// Steps a simulation to the plan's last tick as fast as it goes: commands from the source, what
+/// happens to the observer, which is closed at the end.
+/// @param simulation at the beginning of the run; it tells nobody when the run is over, however it
+/// ends.
+HOVERCRAFT_PUBLIC RunSummary run(Simulation& simulation, CommandSource& commands,
+                                 RunObserver& observer, const RunPlan& plan);
 
 }  // namespace hovercraft

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,12 +17,13 @@
 
 namespace hovercraft {
 
+class RunObserver;
 class StateHash;
 
 /// A scenario in motion: steps of fixed length, counted by a tick. No clock, no thread, no
 /// allocation in step(); the same scenario and the same commands at the same ticks give the same
 /// bits, whatever the program was compiled with and whatever the floating-point environment of its
-/// thread is (FloatingPointEnvironment). Callbacks run in the thread's own.
+/// thread is (FloatingPointEnvironment). An observer is told in the thread's own.
 class HOVERCRAFT_PUBLIC Simulation {
  public:
   explicit Simulation(Scenario scenario);
@@ -107,12 +107,9 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// Null if no craft has sensors.
   const SensorSuite* sensors() const { return sensors_ ? &*sensors_ : nullptr; }
 
-  /// Called for every command when it takes effect; not set: nothing is called.
-  std::function<void(const Command&)> on_applied;
-  /// Called for every contact of a step, in the order of time, when the step is done.
-  std::function<void(const ContactEvent&)> on_contact;
-  /// Called for every sample that is due, when the step is done and its contacts have been told.
-  SampleSink on_sample;
+  /// Who is told from now on of commands, contacts and samples; null: nobody.
+  /// @param observer outlives the simulation, or its own place here.
+  void observe(RunObserver* observer) { observer_ = observer; }
 
  private:
   void applyDueCommands();
@@ -138,6 +135,7 @@ class HOVERCRAFT_PUBLIC Simulation {
                    const Twist& twist) const;
   Motion motionOf(std::size_t body, const BodyState& state) const;
 
+  RunObserver* observer_ = nullptr;
   Scenario scenario_;
   World world_;
   std::shared_ptr<const Ground> ground_;       // what cushions blow on; none
