@@ -9,6 +9,7 @@
 #include "hovercraft_sim/python/command_list.h"
 #include "hovercraft_sim/python/rows.h"
 #include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/sim/run.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 /// The extension module hovercraft_core._bags: bags, by the package's own reader and writer. It is

@@ -11,6 +11,7 @@
 #include "hovercraft_sim/python/command_list.h"
 #include "hovercraft_sim/scenario/air_parser.h"
 #include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/sim/run.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 namespace hovercraft_python {

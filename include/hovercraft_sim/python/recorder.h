@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hovercraft_sim/sim/run.h"
+#include "hovercraft_sim/sim/run_observer.h"
+#include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft_python {
 

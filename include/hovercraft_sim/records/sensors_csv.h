@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/io/output_file.h"
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/scenario/scenario.h"
 #include "hovercraft_sim/sim/run_observer.h"
 
 namespace hovercraft {
