@@ -6,15 +6,23 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
+#include <hovercraft_sim/State.h>
+#include <hovercraft_sim/States.h>
 #include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
 #include "hovercraft_sim/bags/bag_file.h"
+#include "hovercraft_sim/bags/recorded_messages.h"
+#include "hovercraft_sim/messages/vehicle_messages.h"
 
 namespace hovercraft_ros {
 namespace {
+
+using hovercraft_sim::State;
+using hovercraft_sim::States;
 
 /// Types that say nothing as curves.
 bool isPassedOver(const std::string& type) {
@@ -52,9 +60,11 @@ bool isKept(const MessageLeaf& leaf) {
 class TopicReader {
  public:
   explicit TopicReader(const rosbag::MessageInstance& first)
-      : definition_(first.getMessageDefinition()), layout_(first.getDataType(), definition_) {
-    samples_.topic = first.getTopic();
-    samples_.type = first.getDataType();
+      : TopicReader(first.getTopic(), first.getDataType(), first.getMessageDefinition()) {}
+  TopicReader(const std::string& topic, const std::string& type, std::string definition)
+      : definition_(std::move(definition)), layout_(type, definition_) {
+    samples_.topic = topic;
+    samples_.type = type;
     stamp_ = layout_.find("header.stamp");
     for (std::size_t i = 0; i < layout_.leaves().size(); ++i) {
       if (!isKept(layout_.leaves()[i])) continue;
@@ -73,10 +83,29 @@ class TopicReader {
     bytes_.resize(instance.size());
     ros::serialization::OStream stream(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
     instance.write(stream);
+    addBytes(instance.getTime());
+  }
+
+  /// A message that is not one of the bag by itself.
+  template <class Message>
+  void add(const Message& message, const ros::Time& received) {
+    bytes_.resize(ros::serialization::serializationLength(message));
+    ros::serialization::OStream stream(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+    ros::serialization::serialize(stream, message);
+    addBytes(received);
+  }
+
+  TopicSamples take() {
+    sort();
+    return std::move(samples_);
+  }
+
+ private:
+  void addBytes(const ros::Time& received) {
     if (!layout_.read(bytes_.data(), bytes_.size(), values_)) {
       throw std::invalid_argument("a message is shorter than its definition");
     }
-    const auto received_ns = static_cast<std::int64_t>(instance.getTime().toNSec());
+    const auto received_ns = static_cast<std::int64_t>(received.toNSec());
     const std::int64_t stamp_ns = stamp_ ? values_[*stamp_].integer : 0;
     samples_.received_ns.push_back(received_ns);
     samples_.stamps_ns.push_back(stamp_ns > 0 ? stamp_ns : received_ns);
@@ -91,12 +120,6 @@ class TopicReader {
     }
   }
 
-  TopicSamples take() {
-    sort();
-    return std::move(samples_);
-  }
-
- private:
   void sort();
 
   std::string definition_;
@@ -133,7 +156,12 @@ void TopicReader::sort() {
 /// Reads every message of an open bag.
 class BagReader {
  public:
-  BagReader(const rosbag::Bag& bag, const std::string& path) : view_(bag) { found_.path = path; }
+  BagReader(const rosbag::Bag& bag, const std::string& path) : view_(bag) {
+    found_.path = path;
+    for (const rosbag::ConnectionInfo* connection : view_.getConnections()) {
+      topics_.insert(connection->topic);
+    }
+  }
 
   RecordedTopics read(const ReadingProgress& progress) {
     const auto whole = static_cast<std::int64_t>(view_.size());
@@ -152,6 +180,9 @@ class BagReader {
     const std::string& topic = instance.getTopic();
     if (isPassedOver(instance.getDataType()) || refused_.count(topic) > 0) return;
     try {
+      if (instance.getDataType() == ros::message_traits::DataType<States>::value()) {
+        return takeFleet(instance);
+      }
       auto reader = readers_.find(topic);
       if (reader == readers_.end()) {
         reader = readers_.emplace(topic, TopicReader(instance)).first;
@@ -165,7 +196,26 @@ class BagReader {
     }
   }
 
+  /// The states of all craft in one message: of each that has no topic of its own, as if it had.
+  void takeFleet(const rosbag::MessageInstance& instance) {
+    const auto fleet = readStates(found_.path, instance);
+    for (std::size_t i = 0; i < fleet->names.size(); ++i) {
+      const std::string topic = "/" + fleet->names[i] + "/" + kStateTopic;
+      if (topics_.count(topic) > 0) continue;
+      auto reader = readers_.find(topic);
+      if (reader == readers_.end()) {
+        reader =
+            readers_
+                .emplace(topic, TopicReader(topic, ros::message_traits::DataType<State>::value(),
+                                            ros::message_traits::Definition<State>::value()))
+                .first;
+      }
+      reader->second.add(fleet->states[i], instance.getTime());
+    }
+  }
+
   rosbag::View view_;
+  std::set<std::string> topics_;  // of the bag
   std::map<std::string, TopicReader> readers_;
   std::set<std::string> refused_;
   RecordedTopics found_;

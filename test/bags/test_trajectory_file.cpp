@@ -10,6 +10,7 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TwistStamped.h>
 #include <hovercraft_sim/State.h>
+#include <hovercraft_sim/States.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -334,6 +335,53 @@ TEST_F(TrajectoryFile, EveryBadMessageIsNamedByTopicTimeAndRule) {
         bag.write("/craft/state", stampOfTick(3), stateAt(3));
       },
       "/craft/state: stamps must be a whole number of steps of one length from tick to tick");
+}
+
+/// The states of two craft in one message; b is a metre further on.
+hovercraft_sim::States statesAt(std::int64_t tick) {
+  hovercraft_sim::States states;
+  states.header.stamp = stampOfTick(tick);
+  states.names = {"a", "b"};
+  states.states = {stateAt(tick), stateAt(tick)};
+  states.states[1].pose.position.x += 1.0;
+  return states;
+}
+
+TEST_F(TrajectoryFile, CraftOfAFleetHaveTheirStatesInOneTopic) {
+  rosbag::Bag bag(path_, rosbag::bagmode::Write);
+  for (const std::int64_t tick : {5, 15}) {
+    bag.write("/hovercraft_sim/states", stampOfTick(tick), statesAt(tick));
+  }
+  bag.close();
+  const auto trajectories = readTrajectories(path_);
+  ASSERT_EQ(trajectories.size(), 2U);
+  EXPECT_EQ(trajectories[1].vehicle, "b");
+  EXPECT_EQ(trajectories[1].source, path_ + ": /hovercraft_sim/states, centre of mass");
+  ASSERT_EQ(trajectories[1].samples.size(), 2U);
+  EXPECT_EQ(trajectories[1].samples[1].p_WB.x(), 2.0);
+  EXPECT_EQ(trajectories[1].samples[1].time_ns, 15 * kSampleStepNs);
+}
+
+TEST_F(TrajectoryFile, ATopicOfACraftsOwnComesBeforeThatOfTheFleet) {
+  rosbag::Bag bag(path_, rosbag::bagmode::Write);
+  for (const std::int64_t tick : {5, 15}) {
+    bag.write("/hovercraft_sim/states", stampOfTick(tick), statesAt(tick));
+    bag.write("/a/state", stampOfTick(tick), stateAt(tick));
+  }
+  bag.close();
+  const auto trajectories = readTrajectories(path_);
+  ASSERT_EQ(trajectories.size(), 2U);
+  EXPECT_EQ(trajectories[0].source, path_ + ": /a/state, centre of mass");
+}
+
+TEST_F(TrajectoryFile, ACraftInTwoFleetsIsRefused) {
+  rosbag::Bag bag(path_, rosbag::bagmode::Write);
+  bag.write("/hovercraft_sim/states", stampOfTick(5), statesAt(5));
+  bag.write("/other/states", stampOfTick(6), statesAt(6));
+  bag.close();
+  const std::string message = messageOf([this] { readTrajectories(path_); });
+  EXPECT_NE(message.find("a is in /hovercraft_sim/states too: must be in one"), std::string::npos)
+      << message;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
@@ -9,8 +10,11 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <hovercraft_sim/Contact.h>
+#include <hovercraft_sim/State.h>
+#include <hovercraft_sim/States.h>
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/String.h>
 
@@ -300,6 +304,40 @@ TEST_F(Report, TheLedgerOfACraftInGustsCloses) {
   ASSERT_TRUE(craft.ledger);
   EXPECT_GT(std::abs(craft.ledger->drag), 1.0);
   EXPECT_LT(std::abs(craft.ledger->others), 5e-3 * std::abs(craft.ledger->drag));
+}
+
+// Of a fleet, the states of all craft may be the only thing that was recorded.
+TEST_F(Report, AFleetMayHaveItsStatesInOneTopic) {
+  const std::string flown_bag = flown("two.bag", hovercraft::testing::twoCraftYaml(), 1.0,
+                                      "time,vehicle,rear,left,right\n0,alpha,1,0,0\n");
+  std::map<std::uint64_t, hovercraft_sim::States> fleet;
+  {
+    const rosbag::Bag bag(flown_bag);
+    for (const char* name : {"alpha", "beta"}) {
+      rosbag::View view(bag, rosbag::TopicQuery("/" + std::string(name) + "/state"));
+      for (const rosbag::MessageInstance& instance : view) {
+        const auto state = instance.instantiate<hovercraft_sim::State>();
+        hovercraft_sim::States& states = fleet[state->tick];
+        states.header.stamp = state->header.stamp;
+        states.names.emplace_back(name);
+        states.states.push_back(*state);
+      }
+    }
+  }
+  ASSERT_GT(fleet.size(), 50U);
+  {
+    rosbag::Bag bag(folder_.file("fleet.bag"), rosbag::bagmode::Write);
+    for (const auto& [tick, states] : fleet) {
+      bag.write("/hovercraft_sim/states", states.header.stamp, states);
+    }
+  }
+  const RunData whole = run(flown_bag);
+  const RunData data = run(folder_.file("fleet.bag"));
+  ASSERT_EQ(data.bodies.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(data.bodies[i].motion.position[0].size(), fleet.size());
+    EXPECT_EQ(data.bodies[i].motion.position[0].back(), whole.bodies[i].motion.position[0].back());
+  }
 }
 
 TEST_F(Report, TwoRunsArePartedWhereTheyPart) {
