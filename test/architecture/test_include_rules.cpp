@@ -40,6 +40,7 @@ const std::map<std::string, Rule>& rules() {
                                        "cushion", "hovercraft", "collision", "contact",
                                        "control", "pilot",      "sensors",   "world"};
   static const Names under_records = under_scenario + Names{"scenario", "sim"};
+  static const Names of_programs = {"io", "scenario", "sim", "records", "analysis"};
   static const Names core = under_records + Names{"pacing", "records", "analysis"};
   static const std::map<std::string, Rule> table = {
       // boost/multiprecision: exp and sin that are the same on every machine; it needs no library.
@@ -67,17 +68,18 @@ const std::map<std::string, Rule>& rules() {
       {"bags", {core + Names{"messages"}, of_ros}},
       {"view", {core + Names{"messages"}, of_ros}},
       {"live", {core + Names{"messages", "view"}, of_ros + Names{"unistd.h", "XmlRpcClient.h"}}},
-      {"clients", {core + Names{"messages", "bags"}, of_ros}},
-      {"report", {core + Names{"messages", "bags"}, of_ros + Names{"zlib.h"}}},
+      {"clients", {core + Names{"messages", "bags"}, of_ros + Names{"unistd.h"}}},
+      {"report", {core + Names{"messages", "bags", "view"}, of_ros + Names{"zlib.h"}}},
       {"web",
        {core + Names{"messages", "bags", "view", "report"},
         of_ros + Names{"boost/asio/", "boost/beast/"}}},
       {"nodes",
-       {core + Names{"messages", "bags", "live", "view", "clients", "web"},
+       {of_programs + Names{"messages", "live", "view", "clients", "web"},
         of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
       {"python", {core + Names{"lanes", "messages", "bags"}, {"fmt/", "pybind11/"}}},
       {"tools",
-       {core + Names{"bags", "report"}, of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
+       {of_programs + Names{"bags", "report"},
+        of_ros + Names{"boost/program_options.hpp", "unistd.h"}}},
   };
   return table;
 }

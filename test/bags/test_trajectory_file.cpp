@@ -287,7 +287,7 @@ TEST_F(TrajectoryFile, ABagWithoutATrajectoryIsAnError) {
   write([](rosbag::Bag&) {});
   EXPECT_EQ(errorOf(),
             "run.bag: there is no trajectory in it: must have a topic that ends in /state, /odom "
-            "or /pose, of its type");
+            "or /pose, of its type, or one of hovercraft_sim/States");
 }
 
 TEST_F(TrajectoryFile, EveryBadMessageIsNamedByTopicTimeAndRule) {
