@@ -63,6 +63,9 @@ packages_for() {
     # The versions that decide; clang-tidy 22 takes half the time of 14 (scripts/clang_tidy.py).
     lint) common='clang-format-14 clang-tidy-22 catkin-lint codespell' ;;
     core_test) common='libgtest-dev' ;;
+    bench) common='libbenchmark-dev pkg-config' ;;
+    # What scripts/bench compares with.
+    peers) common='libmujoco-dev libbullet-dev libode-dev libfcl-dev libbox2d-dev' ;;
     demo) common='' ;;
     papers) common='python3-matplotlib python3-numpy' ;;
     python) common='pybind11-dev python3-dev python3-numpy python3-scipy python3-yaml python3-matplotlib' ;;

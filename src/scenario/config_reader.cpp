@@ -155,6 +155,14 @@ double ConfigReader::numberOr(double fallback, const char* key, const NumberRule
   return has(key) ? number(key, rule) : fallback;
 }
 
+std::int64_t ConfigReader::wholeNumber(const char* key, std::int64_t least,
+                                       std::int64_t most) const {
+  if (!has(key)) fail(key, "the key is missing");
+  const std::int64_t value = wholeNumberOr(0, key);
+  if (value < least || value > most) fail(key, fmt::format("must be {} to {}", least, most));
+  return value;
+}
+
 std::int64_t ConfigReader::wholeNumberOr(std::int64_t fallback, const char* key) const {
   if (!has(key)) return fallback;
   const ConfigNode& node = required(key);

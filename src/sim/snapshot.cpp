@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 #include "hovercraft_sim/io/input_file.h"
 #include "hovercraft_sim/io/output_file.h"
@@ -13,6 +14,7 @@
 #include "hovercraft_sim/scenario/yaml_text.h"
 #include "hovercraft_sim/sim/snapshot_air.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
+#include "hovercraft_sim/sim/state_fields.h"
 
 namespace hovercraft {
 namespace {
@@ -20,33 +22,42 @@ namespace {
 // A snapshot of a thousand bodies that all touch has a megabyte.
 constexpr std::size_t kMostSnapshotBytes = 16777216;
 
-/// The orientation as named vectors: a quaternion as scalar and vector, a matrix as its columns.
-std::string orientationText(const Quaternion& q) {
-  return fmt::format("q_s: {}, q_v: {}", yamlNumber(q.s), yamlVector(q.v));
-}
-std::string orientationText(const Matrix3& R) {
-  return fmt::format("x_axis: {}, y_axis: {}, z_axis: {}", yamlVector(R.col(0)),
-                     yamlVector(R.col(1)), yamlVector(R.col(2)));
-}
+/// Fields as `name: value`, with commas between them.
+class FieldsText {
+ public:
+  template <class Value>
+  void operator()(const char* name, const Value& value) {
+    if (!text_.empty()) text_ += ", ";
+    text_ += fmt::format("{}: {}", name, textOf(value));
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  static std::string textOf(double number) { return yamlNumber(number); }
+  static std::string textOf(const Vector3& v) { return yamlVector(v); }
+  static std::string textOf(bool flag) { return flag ? "true" : "false"; }
+  static std::string textOf(std::int64_t number) { return fmt::format("{}", number); }
+  static std::string textOf(std::int32_t number) { return fmt::format("{}", number); }
+  static std::string textOf(FeatureKind kind) { return fmt::format("{}", static_cast<int>(kind)); }
+  static std::string textOf(ExternalWrench::Frame frame) {
+    return frameNames()[static_cast<std::size_t>(frame)];
+  }
+  static std::string textOf(const std::string& text) { return text; }
+
+  std::string text_;
+};
 
 std::string bodyText(const BodyState& state) {
-  return std::visit(
-      [](const auto& body) {
-        return fmt::format("{{position: {}, {}, momentum: {}, angular_momentum: {}}}\n",
-                           yamlVector(body.p_WB), orientationText(body.orientation),
-                           yamlVector(body.momentum_W), yamlVector(body.angular_momentum_W));
-      },
-      state);
+  FieldsText fields;
+  std::visit([&fields](const auto& body) { visitBody(body, fields); }, state);
+  return fmt::format("{{{}}}\n", fields.text());
 }
 
 std::string actuatorText(const EngineState& state) {
-  const std::string fault =
-      state.isFaulty() ? fmt::format(", efficiency: {}, stuck: {}", yamlNumber(state.efficiency),
-                                     state.stuck ? "true" : "false")
-                       : "";
-  return fmt::format("{{commanded: {}, thrust: {}, command_tick: {}{}}}\n",
-                     yamlNumber(state.commanded), yamlNumber(state.thrust), state.command_tick,
-                     fault);
+  FieldsText fields;
+  visitActuator(state, fields);
+  if (state.isFaulty()) visitFault(state, fields);
+  return fmt::format("{{{}}}\n", fields.text());
 }
 
 std::string vehicleText(const VehicleScenario& vehicle, const BodyState& body,
@@ -64,11 +75,16 @@ std::string vehicleText(const VehicleScenario& vehicle, const BodyState& body,
 }
 
 std::string wrenchText(const Scenario& scenario, const ExternalWrench& external) {
-  return fmt::format("  - {{vehicle: {}, frame: {}, force: {}, torque: {}, end_tick: {}}}\n",
-                     yamlText(scenario.vehicles[external.vehicle].name),
-                     frameNames()[static_cast<std::size_t>(external.frame)],
-                     yamlVector(external.wrench.force), yamlVector(external.wrench.torque),
-                     external.end_tick);
+  FieldsText fields;
+  visitWrench(external, [&](const char* name, const auto& value) {
+    // A craft by its name.
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::size_t>) {
+      fields(name, yamlText(scenario.vehicles[value].name));
+    } else {
+      fields(name, value);
+    }
+  });
+  return fmt::format("  - {{{}}}\n", fields.text());
 }
 
 /// The values for actuators besides the engines by name, if there are any.
@@ -91,19 +107,17 @@ std::string commandText(const Scenario& scenario, const Command& command) {
 
 /// A contact by the indices of its bodies and features: these are of the same scenario.
 std::string contactText(const ContactMemory& contact) {
-  const FeaturePair& f = contact.features;
-  std::string yaml = fmt::format(
-      "  - {{a: {}, b: {}, kind_a: {}, index_a: {}, kind_b: {}, index_b: {}, hint_a: {}, hint_b: "
-      "{}, resting: {}",
-      contact.a, contact.b, static_cast<int>(f.a.kind), f.a.index, static_cast<int>(f.b.kind),
-      f.b.index, f.hints[0], f.hints[1], contact.resting ? "true" : "false");
-  if (contact.count > 0) yaml += ", points: [";
-  for (int i = 0; i < contact.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    yaml += fmt::format("{}{{p: {}, force: {}}}", i > 0 ? ", " : "", yamlVector(contact.p_AC[k]),
-                        yamlVector(contact.force_B_W[k]));
+  FieldsText fields;
+  visitPair(contact, fields);
+  visitFeatures(contact, fields);
+  std::string points;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contact.count); ++k) {
+    FieldsText point;
+    visitPoint(contact, k, point);
+    points += fmt::format("{}{{{}}}", k > 0 ? ", " : "", point.text());
   }
-  return yaml + (contact.count > 0 ? "]}\n" : "}\n");
+  if (contact.count > 0) fields("points", "[" + points + "]");
+  return fmt::format("  - {{{}}}\n", fields.text());
 }
 
 }  // namespace

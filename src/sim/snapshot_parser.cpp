@@ -1,9 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
@@ -14,7 +16,9 @@
 #include "hovercraft_sim/scenario/yaml_text.h"
 #include "hovercraft_sim/sim/snapshot.h"
 #include "hovercraft_sim/sim/snapshot_air.h"
+#include "hovercraft_sim/sim/snapshot_contacts.h"
 #include "hovercraft_sim/sim/snapshot_sensors.h"
+#include "hovercraft_sim/sim/state_fields.h"
 
 /// A snapshot is as foreign as a scenario: it may be any file, or come in a bag. Nothing of it
 /// becomes an index, a pose or a time before it was checked, whatever its hash says.
@@ -30,16 +34,6 @@ const NumberRule kEfficiency = {[](double share) { return share >= 0.0 && share 
 
 // The limits hold to rounding: the lag computes a thrust from two others.
 constexpr double kThrustSlack = 1e-9;
-
-std::int64_t wholeNumber(const ConfigReader& reader, const char* key, std::int64_t least,
-                         std::int64_t most) {
-  if (!reader.has(key)) reader.fail(key, "the key is missing");
-  const std::int64_t value = reader.wholeNumberOr(0, key);
-  if (value < least || value > most) {
-    reader.fail(key, fmt::format("must be {} to {}", least, most));
-  }
-  return value;
-}
 
 Tick latestTick(const Scenario& scenario) {
   return kMostTimeNs / scenario.step_ns;
@@ -71,28 +65,30 @@ bool isYaw(const Matrix3& R_WB) {
          R_WB(2, 2) > 0.0;
 }
 
-Quaternion parseOrientation(const ConfigReader& reader, const Quaternion& /*kind*/) {
-  reader.allowOnly({"position", "q_s", "q_v", "momentum", "angular_momentum"});
-  return {reader.number("q_s"), reader.vector("q_v")};
-}
-Matrix3 parseOrientation(const ConfigReader& reader, const Matrix3& /*kind*/) {
-  reader.allowOnly({"position", "x_axis", "y_axis", "z_axis", "momentum", "angular_momentum"});
-  Matrix3 R_WB;
-  R_WB.col(0) = reader.vector("x_axis");
-  R_WB.col(1) = reader.vector("y_axis");
-  R_WB.col(2) = reader.vector("z_axis");
-  return R_WB;
+/// The names of the fields that a walk (state_fields.h) meets.
+template <class Walk>
+std::vector<std::string> namesOf(const Walk& walk) {
+  std::vector<std::string> names;
+  walk([&names](const char* name, const auto& /*value*/) { names.emplace_back(name); });
+  return names;
 }
 
 template <class Orientation>
-BodyState parseBodyAs(const ConfigReader& reader, BodyModel model, const Orientation& kind) {
-  const Orientation orientation = parseOrientation(reader, kind);
-  requireRotation(reader, orientation);
-  RigidBodyState<Orientation> body = {reader.vector("position", kCoordinate), orientation,
-                                      reader.vector("momentum"), reader.vector("angular_momentum")};
+BodyState parseBodyAs(const ConfigReader& reader, BodyModel model) {
+  RigidBodyState<Orientation> body;
+  const auto walk = [&body](const auto& visit) { visitBody(body, visit); };
+  reader.allowOnly(namesOf(walk));
+  walk([&](const char* name, auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Vector3>) {
+      value = &value == &body.p_WB ? reader.vector(name, kCoordinate) : reader.vector(name);
+    } else {
+      value = reader.number(name);
+    }
+  });
+  requireRotation(reader, body.orientation);
   if (model != BodyModel::kPlanar) return body;
   const char* const rule = "does not fit model: planar, which moves in x, y and yaw only";
-  if (!isYaw(orientation)) reader.fail("", rule);
+  if (!isYaw(body.orientation)) reader.fail("", rule);
   if (body.momentum_W.z() != 0.0) reader.fail("momentum", rule);
   const Vector3& L = body.angular_momentum_W;
   if (L.x() != 0.0 || L.y() != 0.0) reader.fail("angular_momentum", rule);
@@ -101,8 +97,8 @@ BodyState parseBodyAs(const ConfigReader& reader, BodyModel model, const Orienta
 
 BodyState parseBodyState(const ConfigReader& reader, const Scenario& scenario) {
   return scenario.orientation == OrientationKind::kQuaternion
-             ? parseBodyAs(reader, scenario.model, Quaternion{1.0, Vector3::Zero()})
-             : parseBodyAs(reader, scenario.model, Matrix3(Matrix3::Identity()));
+             ? parseBodyAs<Quaternion>(reader, scenario.model)
+             : parseBodyAs<Matrix3>(reader, scenario.model);
 }
 
 void requireCount(const ConfigReader& reader, const char* key, std::size_t count) {
@@ -110,12 +106,35 @@ void requireCount(const ConfigReader& reader, const char* key, std::size_t count
   reader.fail(key, "must hold those of the scenario and no other");
 }
 
+void readField(const ConfigReader& reader, const char* name, double& value) {
+  value = reader.number(name);
+}
+void readField(const ConfigReader& reader, const char* name, Vector3& value) {
+  value = reader.vector(name);
+}
+
 EngineState parseEngine(const ConfigReader& reader, const EngineParameters& engine, Tick now) {
-  reader.allowOnly({"commanded", "thrust", "command_tick", "efficiency", "stuck"});
-  const EngineState state = {reader.number("commanded"), reader.number("thrust"),
-                             wholeNumber(reader, "command_tick", EngineState::kNever, now),
-                             reader.numberOr(1.0, "efficiency", kEfficiency),
-                             reader.flagOr(false, "stuck")};
+  EngineState state;
+  const auto walk = [&state](const auto& visit) {
+    visitActuator(state, visit);
+    visitFault(state, visit);
+  };
+  reader.allowOnly(namesOf(walk));
+  visitActuator(state, [&](const char* name, auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, Tick>) {
+      value = reader.wholeNumber(name, EngineState::kNever, now);
+    } else {
+      readField(reader, name, value);
+    }
+  });
+  // Written where there is one.
+  visitFault(state, [&](const char* name, auto& value) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool>) {
+      value = reader.flagOr(value, name);
+    } else {
+      value = reader.numberOr(value, name, kEfficiency);
+    }
+  });
   const double slack = kThrustSlack * std::max(-engine.min_thrust, engine.max_thrust);
   if (state.thrust < engine.min_thrust - slack || state.thrust > engine.max_thrust + slack) {
     reader.fail("thrust", "must be within the limits of the engine");
@@ -162,7 +181,7 @@ void parseCommandedActuators(const ConfigReader& reader, const VehicleScenario& 
 Command parseCommand(const ConfigReader& reader, const Scenario& scenario, Tick earliest) {
   reader.allowOnly({"tick", "vehicle", "engines", "thrusts", "actuators"});
   Command command;
-  command.tick = wholeNumber(reader, "tick", 0, latestTick(scenario));
+  command.tick = reader.wholeNumber("tick", 0, latestTick(scenario));
   if (command.tick < earliest) {
     reader.fail("tick", fmt::format("must be {} or greater, in ascending order", earliest));
   }
@@ -193,98 +212,29 @@ CommandLog parseCommands(const ConfigReader& reader, const Scenario& scenario, T
 }
 
 ExternalWrench parseWrench(const ConfigReader& reader, const Scenario& scenario) {
-  reader.allowOnly({"vehicle", "frame", "force", "torque", "end_tick"});
   ExternalWrench external;
-  external.vehicle = parseVehicleName(reader, scenario);
-  reader.text("frame");  // it must be there
-  external.frame = static_cast<ExternalWrench::Frame>(reader.choiceOr(0, "frame", frameNames()));
-  external.wrench = {reader.vector("force"), reader.vector("torque")};
-  external.end_tick = wholeNumber(reader, "end_tick", 0, std::numeric_limits<std::int64_t>::max());
-  return external;
-}
-
-std::int32_t index(const ConfigReader& reader, const char* key, std::int32_t least,
-                   std::int32_t count) {
-  return static_cast<std::int32_t>(wholeNumber(reader, key, least, std::int64_t{count} - 1));
-}
-
-/// A feature of a body, and where the search in its ring or fan starts.
-struct SavedFeature {
-  Feature feature;
-  std::int32_t hint;
-};
-
-struct FeatureKeys {
-  const char* kind;
-  const char* index;
-  const char* hint;
-};
-
-SavedFeature parseFeature(const ConfigReader& reader, const ConvexPolyhedron& hull,
-                          const FeatureKeys& keys) {
-  SavedFeature saved{};
-  saved.feature.kind = static_cast<FeatureKind>(index(reader, keys.kind, 0, 3));
-  const std::array<int, 3> counts = {hull.vertexCount(), hull.edgeCount(), hull.faceCount()};
-  saved.feature.index =
-      index(reader, keys.index, 0, counts[static_cast<std::size_t>(saved.feature.kind)]);
-  std::int32_t places = 1;
-  if (saved.feature.kind == FeatureKind::kVertex) {
-    places = hull.data().vertices[static_cast<std::size_t>(saved.feature.index)].fan_count;
-  } else if (saved.feature.kind == FeatureKind::kFace) {
-    places = hull.face(saved.feature.index).ring_count;
-  }
-  saved.hint = index(reader, keys.hint, 0, places);
-  return saved;
-}
-
-ContactMemory parseContact(const ConfigReader& reader, const World& world) {
-  reader.allowOnly({"a", "b", "kind_a", "index_a", "kind_b", "index_b", "hint_a", "hint_b",
-                    "resting", "points"});
-  const auto moving = static_cast<std::int32_t>(world.scene().bodies().size());
-  const std::int32_t all = moving + static_cast<std::int32_t>(world.scene().obstacles().size());
-  ContactMemory contact;
-  contact.a = index(reader, "a", 0, moving);
-  contact.b = index(reader, "b", contact.a + 1, all);
-  const SavedFeature a =
-      parseFeature(reader, world.scene().hullOf(contact.a), {"kind_a", "index_a", "hint_a"});
-  const SavedFeature b =
-      parseFeature(reader, world.scene().hullOf(contact.b), {"kind_b", "index_b", "hint_b"});
-  contact.features = {true, a.feature, b.feature, {a.hint, b.hint}};
-  contact.resting = reader.flagOr(false, "resting");
-  if (!reader.has("points")) return contact;
-  for (const ConfigReader& point : reader.list("points")) {
-    if (contact.count == ContactManifold::kMaxPoints) reader.fail("points", "must be at most 8");
-    point.allowOnly({"p", "force"});
-    const auto k = static_cast<std::size_t>(contact.count++);
-    contact.p_AC[k] = point.vector("p");
-    contact.force_B_W[k] = point.vector("force");
-    if (!std::isfinite(squaredNorm(contact.p_AC[k])) ||
-        !std::isfinite(squaredNorm(contact.force_B_W[k]))) {
-      point.fail("", "the squares of p and force must be finite");
+  const auto walk = [&external](const auto& visit) { visitWrench(external, visit); };
+  reader.allowOnly(namesOf(walk));
+  walk([&](const char* name, auto& value) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::size_t>) {
+      value = parseVehicleName(reader, scenario);
+    } else if constexpr (std::is_same_v<Value, ExternalWrench::Frame>) {
+      reader.text(name);  // it must be there
+      value = static_cast<Value>(reader.choiceOr(0, name, frameNames()));
+    } else if constexpr (std::is_same_v<Value, Tick>) {
+      value = reader.wholeNumber(name, 0, std::numeric_limits<std::int64_t>::max());
+    } else {
+      readField(reader, name, value);
     }
-  }
-  return contact;
-}
-
-/// In the order in which a step looks for them.
-std::vector<ContactMemory> parseContacts(const ConfigReader& reader, const World* world) {
-  std::vector<ContactMemory> contacts;
-  if (!reader.has("contacts")) return contacts;
-  if (world == nullptr) reader.fail("contacts", "needs a world: in the scenario");
-  for (const ConfigReader& entry : reader.list("contacts")) {
-    const ContactMemory contact = parseContact(entry, *world);
-    const bool ascends = contacts.empty() || contacts.back().a < contact.a ||
-                         (contacts.back().a == contact.a && contacts.back().b < contact.b);
-    if (!ascends) entry.fail("", "pairs must stand once and in ascending order");
-    contacts.push_back(contact);
-  }
-  return contacts;
+  });
+  return external;
 }
 
 SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
                            const Simulation& started) {
   SimulationState state;
-  state.tick = wholeNumber(reader, "tick", 0, latestTick(scenario));
+  state.tick = reader.wholeNumber("tick", 0, latestTick(scenario));
   state.seed = reader.wholeNumberOr(scenario.seed, "seed");
   requireCount(reader, "vehicles", scenario.vehicles.size());
   const ConfigReader vehicles = reader.map("vehicles");
@@ -306,7 +256,7 @@ SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
     reader.fail("bodies", "there are none in the scenario");
   }
   parseAirState(reader, scenario, state);
-  state.contacts = parseContacts(reader, started.world());
+  state.contacts = parseContactMemories(reader, started.world());
   state.sensors = parseSensorStates(reader, state.tick, started);
   state.commands = parseCommands(reader, scenario, state.tick);
   return state;
@@ -349,7 +299,7 @@ ConfigNode snapshotTree(const std::string& text, const std::string& source) {
 
 /// A snapshot of format 1 says neither, and is of physics version 1.
 void checkVersions(const ConfigReader& reader, bool may_be_older) {
-  if (reader.has("format")) wholeNumber(reader, "format", kSnapshotFormat, kSnapshotFormat);
+  if (reader.has("format")) reader.wholeNumber("format", kSnapshotFormat, kSnapshotFormat);
   const std::int64_t physics = reader.wholeNumberOr(1, "physics_version");
   if (physics == kPhysicsVersion) return;
   if (may_be_older && physics > 0 && physics < kPhysicsVersion) return;

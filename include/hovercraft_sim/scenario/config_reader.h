@@ -56,6 +56,8 @@ class HOVERCRAFT_PUBLIC ConfigReader {
   double number(const char* key, const NumberRule& rule = kAnyNumber) const;
   double numberOr(double fallback, const char* key, const NumberRule& rule = kAnyNumber) const;
   std::int64_t wholeNumberOr(std::int64_t fallback, const char* key) const;
+  /// A whole number from `least` to `most`.
+  std::int64_t wholeNumber(const char* key, std::int64_t least, std::int64_t most) const;
   /// Three numbers, each of which obeys the rule.
   Vector3 vector(const char* key, const NumberRule& rule = kAnyNumber) const;
   /// Any number of numbers, also none; at most `most`.

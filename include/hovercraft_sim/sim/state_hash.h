@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "hovercraft_sim/sim/simulation.h"
+#include "hovercraft_sim/sim/state_fields.h"
 
 namespace hovercraft {
 
@@ -11,6 +12,12 @@ namespace hovercraft {
 /// machine. The order of the fields is the contract of ARCHITECTURE.md.
 class StateHash {
  public:
+  /// A field of state_fields.h.
+  template <class Value>
+  void operator()(const char* /*field*/, const Value& value) {
+    add(value);
+  }
+
   void add(std::uint64_t word) {
     for (int byte = 0; byte < 8; ++byte) {
       value_ ^= (word >> (8 * byte)) & 0xffU;
@@ -26,59 +33,40 @@ class StateHash {
   void add(const Vector3& v) {
     for (int i = 0; i < 3; ++i) add(v[i]);
   }
-  void add(const Quaternion& q) {
-    add(q.s);
-    add(q.v);
-  }
+  void add(bool flag) { add(static_cast<std::uint64_t>(flag ? 1 : 0)); }
+  void add(std::int32_t number) { add(static_cast<std::int64_t>(number)); }
+  void add(FeatureKind kind) { add(static_cast<std::uint64_t>(kind)); }
+  void add(ExternalWrench::Frame frame) { add(static_cast<std::uint64_t>(frame)); }
+  void add(const Quaternion& q_WB) { visitOrientation(q_WB, *this); }
   /// Column by column.
-  void add(const Matrix3& R) {
-    for (int column = 0; column < 3; ++column) add(Vector3(R.col(column)));
-  }
+  void add(const Matrix3& R_WB) { visitOrientation(R_WB, *this); }
   /// Position, orientation, momenta.
   void add(const BodyState& state) {
-    std::visit([this](const auto& body) { addBody(body); }, state);
+    std::visit([this](const auto& body) { visitBody(body, *this); }, state);
   }
   /// Of each engine: command, thrust, tick of the command.
   void add(const EngineStates& engines) {
-    for (const EngineState& engine : engines) {
-      add(engine.commanded);
-      add(engine.thrust);
-      add(engine.command_tick);
-    }
+    for (const EngineState& engine : engines) visitActuator(engine, *this);
   }
   /// Of a faulty actuator: vehicle, id, efficiency, whether it is stuck.
   void addFault(std::size_t vehicle, std::size_t id, const EngineState& actuator) {
     add(static_cast<std::uint64_t>(vehicle));
     add(static_cast<std::uint64_t>(id));
-    add(actuator.efficiency);
-    add(static_cast<std::uint64_t>(actuator.stuck ? 1 : 0));
+    visitFault(actuator, *this);
   }
 
   /// Vehicle, frame (0 world, 1 body), force, torque, end tick.
-  void add(const ExternalWrench& external) {
-    add(static_cast<std::uint64_t>(external.vehicle));
-    add(static_cast<std::uint64_t>(external.frame));
-    add(external.wrench.force);
-    add(external.wrench.torque);
-    add(external.end_tick);
-  }
+  void add(const ExternalWrench& external) { visitWrench(external, *this); }
 
-  /// Both bodies, features and hints, whether it rests; number of points, then point and force of
-  /// each.
+  /// Both bodies, whether features are known, features and hints, whether it rests; number of
+  /// points, then point and force of each.
   void add(const ContactMemory& contact) {
-    add(static_cast<std::int64_t>(contact.a));
-    add(static_cast<std::int64_t>(contact.b));
-    add(static_cast<std::uint64_t>(contact.features.known ? 1 : 0));
-    for (const Feature& feature : {contact.features.a, contact.features.b}) {
-      add(static_cast<std::uint64_t>(feature.kind));
-      add(static_cast<std::int64_t>(feature.index));
-    }
-    for (const std::int32_t hint : contact.features.hints) add(static_cast<std::int64_t>(hint));
-    add(static_cast<std::uint64_t>(contact.resting ? 1 : 0));
-    add(static_cast<std::int64_t>(contact.count));
-    for (int i = 0; i < contact.count; ++i) {
-      add(contact.p_AC[static_cast<std::size_t>(i)]);
-      add(contact.force_B_W[static_cast<std::size_t>(i)]);
+    visitPair(contact, *this);
+    add(contact.features.known);
+    visitFeatures(contact, *this);
+    add(contact.count);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
+      visitPoint(contact, i, *this);
     }
   }
 
@@ -98,14 +86,6 @@ class StateHash {
  private:
   static constexpr std::uint64_t kPrime = 0x100000001b3ULL;
   static constexpr std::uint64_t kOffsetBasis = 0xcbf29ce484222325ULL;
-
-  template <class Orientation>
-  void addBody(const RigidBodyState<Orientation>& body) {
-    add(body.p_WB);
-    add(body.orientation);
-    add(body.momentum_W);
-    add(body.angular_momentum_W);
-  }
 
   std::uint64_t value_ = kOffsetBasis;
 };
