@@ -21,9 +21,6 @@
 namespace hovercraft_ros {
 namespace {
 
-using hovercraft_sim::State;
-using hovercraft_sim::States;
-
 /// Types that say nothing as curves.
 bool isPassedOver(const std::string& type) {
   static const std::set<std::string> types = {
@@ -180,7 +177,8 @@ class BagReader {
     const std::string& topic = instance.getTopic();
     if (isPassedOver(instance.getDataType()) || refused_.count(topic) > 0) return;
     try {
-      if (instance.getDataType() == ros::message_traits::DataType<States>::value()) {
+      if (instance.getDataType() ==
+          ros::message_traits::DataType<hovercraft_sim::States>::value()) {
         return takeFleet(instance);
       }
       auto reader = readers_.find(topic);
@@ -206,8 +204,10 @@ class BagReader {
       if (reader == readers_.end()) {
         reader =
             readers_
-                .emplace(topic, TopicReader(topic, ros::message_traits::DataType<State>::value(),
-                                            ros::message_traits::Definition<State>::value()))
+                .emplace(topic,
+                         TopicReader(
+                             topic, ros::message_traits::DataType<hovercraft_sim::State>::value(),
+                             ros::message_traits::Definition<hovercraft_sim::State>::value()))
                 .first;
       }
       reader->second.add(fleet->states[i], instance.getTime());
