@@ -17,7 +17,9 @@ set(hovercraft_public_headers
 
 function(hovercraft_install_headers destination)
   string(REPLACE ";" " " headers "${hovercraft_public_headers}")
+  # Scripts that install know no policies of the project.
   install(CODE "
+    cmake_policy(SET CMP0057 NEW)
     set(waiting ${headers})
     set(found)
     while(waiting)

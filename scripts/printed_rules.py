@@ -25,7 +25,7 @@ DOCUMENTS = ('README.md', 'CONTRIBUTING.md', 'doc/reference.md', 'doc/time.md', 
 # Sections that begin in a terminal where no setup.bash was read. The others begin with that of scripts/demo.
 BARE_SECTIONS = ('Two commands', 'Build it yourself', 'Build and test')
 # Programs of a reader's own machine, which need not be here.
-READERS_PROGRAMS = ('node', 'rviz', 'ssh', 'xdg-open')
+READERS_PROGRAMS = ('docker', 'node', 'rviz', 'ssh', 'xdg-open')
 # The languages of blocks that nobody runs; every other one is a file, whose name in backquotes and a colon precede it.
 TEXTS = ('', 'text', 'mermaid')
 # Blocks that another check runs: scripts/check_python does.
@@ -86,10 +86,12 @@ RULES = (
     Rule(r'cmake .* build_release -DCATKIN_ENABLE_TESTING=ON|cmake .* --target hovercraft_sim_test_math .*|build_release/.*/hovercraft_sim_test_math .*',
          skip=SCRIPTS_TEST),
     Rule(r'clang-format-14 -i .*|scripts/(fuzz|mutate) .*', skip=NAMED),
-    Rule(r'sudo scripts/(try_in_chroot|determinism|package|check_package).*', skip='it makes a bare Debian from the network, as root'),
+    Rule(r'sudo scripts/(try_in_chroot|determinism|package|check_package|check_container).*', skip='it makes a bare Debian from the network, as root'),
     Rule(r'build/determinism/.* --record', skip='scripts/determinism, as root, has built it'),
     # doc/install.md
     Rule(r'sudo apt-get (install .*build/packages.*|purge .*)', skip='scripts/check_package does it in a bare Debian'),
+    Rule(r'bloom-generate .*', skip='it needs the network'),
+    Rule(r'docker (build|run) .*', skip='there is no container runtime; scripts/check_container does the same in bare trees'),
     Rule(r'scripts/(package|check_package) SUITE.*|new_package NAME FOLDER|.*rosrun\s+hovercraft_sim new_package', skip=NAMED),
     # doc/craft.md
     Rule(r'roslaunch hovercraft_sim sim\.launch scenario:=\$PWD/config/lift_fan\.yaml', beside=(), until='/hovercraft_sim/scenario', stays=True),
