@@ -34,13 +34,6 @@ struct PackState {
 };
 
 template <class Isa>
-[[gnu::always_inline]] inline Vector<Isa> chosen(MaskOf<Isa> mask, const Vector<Isa>& yes,
-                                                 const Vector<Isa>& no) {
-  return {choose<Isa>(mask, yes.x, no.x), choose<Isa>(mask, yes.y, no.y),
-          choose<Isa>(mask, yes.z, no.z)};
-}
-
-template <class Isa>
 [[gnu::always_inline]] inline PlanarMotion<Isa> chosen(MaskOf<Isa> mask,
                                                        const PlanarMotion<Isa>& yes,
                                                        const PlanarMotion<Isa>& no) {
@@ -96,6 +89,44 @@ template <class Isa, bool kHasMore>
   if (has_middle) loads.middle.engines_B = system.enginesWrench(loads.middle.levels);
   loads.end.engines_B = system.enginesWrench(loads.end.levels);
 }
+
+/// The fans of a cushion over a step, and whether they turn otherwise in the next one.
+template <class Isa>
+struct StepFans {
+  FanAtSpeed<Isa> start[kMostLiftFans];
+  FanAtSpeed<Isa> middle[kMostLiftFans];
+  FanAtSpeed<Isa> end[kMostLiftFans];
+
+  [[gnu::always_inline]] static bool change(const GroundPlan& plan, std::size_t stride) {
+    bool any = stride > 0;
+    for (std::size_t i = 0; i < plan.fan_count; ++i) {
+      any = any || plan.fans[i].actuator != LiftFanStep::kDescribed;
+    }
+    return any;
+  }
+
+  /// @param numbers of the plan. @param speeds as they are described, of the step.
+  [[gnu::always_inline]] void turn(const GroundPlan& plan, const Numbers& numbers,
+                                   const Row* speeds, StepLoads<Isa>& loads) {
+    turnAt(plan, numbers, speeds, loads.start, start);
+    turnAt(plan, numbers, speeds + plan.fan_count, loads.middle, middle);
+    turnAt(plan, numbers, speeds + 2 * plan.fan_count, loads.end, end);
+  }
+
+  /// At one stage.
+  [[gnu::always_inline]] static void turnAt(const GroundPlan& plan, const Numbers& numbers,
+                                            const Row* speeds, StageLoad<Isa>& at,
+                                            FanAtSpeed<Isa>* fans) {
+    for (std::size_t i = 0; i < plan.fan_count; ++i) {
+      const std::size_t id = plan.fans[i].actuator;
+      const NumberOf<Isa> speed = id == LiftFanStep::kDescribed
+                                      ? load<Isa>(speeds[i], numbers.first)
+                                      : notNegative<Isa>(at.levels[id]);
+      fans[i] = atSpeed<Isa>(numbers.rows + GroundPlan::fanRow(i), numbers.first, speed);
+    }
+    at.fans = fans;
+  }
+};
 
 template <class Isa>
 [[gnu::always_inline]] inline NumberOf<Isa> settled(NumberOf<Isa> momentum) {

@@ -21,7 +21,7 @@ struct BatchKind {
   bool has_gusts = false;
   std::vector<std::string> actuator_names;  // besides the engines
   lanes::StepPlan plan;
-  std::size_t rows = 0;  // numbers of its forces and rotors
+  std::size_t rows = 0;  // numbers of its forces, rotors and ground
 };
 
 /// What a run knows of an actuator between its events.
