@@ -106,6 +106,7 @@ class RandomCushion {
     ActuatorScenario fan;
     fan.name = "lift";
     fan.kind = ActuatorKind::kLiftFan;
+    fan.motion.min_thrust = random_.chance(0.3) ? -0.2 : 0.0;  // below 0 the fan stands
     fan.motion.max_thrust = uniform(0.9, 1.2);
     fan.motion.time_constant = random_.chance(0.3) ? 0.0 : uniform(0.01, 0.2);
     fan.motion.timeout_ns = random_.chance(0.5) ? 0 : 50000000;

@@ -26,15 +26,15 @@ template <class Isa, Method kMethod, bool kHasMore>
   state.read(block.state, first, count);
   MaskOf<Isa> moves = load<Isa>(block.state.moves, first);
   StepLoads<Isa> loads;
-  StepFans<Isa> fans;
-  const bool fans_change = StepFans<Isa>::change(plan.ground, steps.fan_stride);
+  StepAir<Isa> air;
+  const bool air_changes = StepAir<Isa>::changes(plan.ground, steps.fan_stride);
   for (std::int64_t made = 0; made < steps.count; ++made) {
     const std::size_t blown = static_cast<std::size_t>(made) * steps.wind_stride;
     if (blown > 0) system.wind_W = loadVector<Isa>(steps.wind_W + blown, first);
     turnActuators(system, block, kIsOfOrder4<kMethod>, state, loads);
-    if (kHasMore && plan.ground.has_cushion && (made == 0 || fans_change)) {
-      fans.turn(plan.ground, system.more.from(plan.ground.first_row),
-                steps.fan_speeds + static_cast<std::size_t>(made) * steps.fan_stride, loads);
+    if (kHasMore && plan.ground.has_cushion && (made == 0 || air_changes)) {
+      air.turn(plan.ground, system.more.from(plan.ground.first_row),
+               steps.fan_speeds + static_cast<std::size_t>(made) * steps.fan_stride, loads);
     }
     PackState<Isa> next;
     if constexpr (kMethod == Method::kLie4) {

@@ -90,15 +90,16 @@ template <class Isa, bool kHasMore>
   loads.end.engines_B = system.enginesWrench(loads.end.levels);
 }
 
-/// The fans of a cushion over a step, and whether they turn otherwise in the next one.
+/// The air of a cushion over a step.
 template <class Isa>
-struct StepFans {
-  FanAtSpeed<Isa> start[kMostLiftFans];
-  FanAtSpeed<Isa> middle[kMostLiftFans];
-  FanAtSpeed<Isa> end[kMostLiftFans];
+struct StepAir {
+  StageAir<Isa> start;
+  StageAir<Isa> middle;
+  StageAir<Isa> end;
 
-  [[gnu::always_inline]] static bool change(const GroundPlan& plan, std::size_t stride) {
-    bool any = stride > 0;
+  /// Whether fans turn otherwise in the next step.
+  [[gnu::always_inline]] static bool changes(const GroundPlan& plan, std::size_t fan_stride) {
+    bool any = fan_stride > 0;
     for (std::size_t i = 0; i < plan.fan_count; ++i) {
       any = any || plan.fans[i].actuator != LiftFanStep::kDescribed;
     }
@@ -108,23 +109,12 @@ struct StepFans {
   /// @param numbers of the plan. @param speeds as they are described, of the step.
   [[gnu::always_inline]] void turn(const GroundPlan& plan, const Numbers& numbers,
                                    const Row* speeds, StepLoads<Isa>& loads) {
-    turnAt(plan, numbers, speeds, loads.start, start);
-    turnAt(plan, numbers, speeds + plan.fan_count, loads.middle, middle);
-    turnAt(plan, numbers, speeds + 2 * plan.fan_count, loads.end, end);
-  }
-
-  /// At one stage.
-  [[gnu::always_inline]] static void turnAt(const GroundPlan& plan, const Numbers& numbers,
-                                            const Row* speeds, StageLoad<Isa>& at,
-                                            FanAtSpeed<Isa>* fans) {
-    for (std::size_t i = 0; i < plan.fan_count; ++i) {
-      const std::size_t id = plan.fans[i].actuator;
-      const NumberOf<Isa> speed = id == LiftFanStep::kDescribed
-                                      ? load<Isa>(speeds[i], numbers.first)
-                                      : notNegative<Isa>(at.levels[id]);
-      fans[i] = atSpeed<Isa>(numbers.rows + GroundPlan::fanRow(i), numbers.first, speed);
-    }
-    at.fans = fans;
+    turnFans<Isa>(plan, numbers, speeds, loads.start.levels, start);
+    turnFans<Isa>(plan, numbers, speeds + plan.fan_count, loads.middle.levels, middle);
+    turnFans<Isa>(plan, numbers, speeds + 2 * plan.fan_count, loads.end.levels, end);
+    loads.start.air = &start;
+    loads.middle.air = &middle;
+    loads.end.air = &end;
   }
 };
 

@@ -54,6 +54,60 @@ template <class Isa>
   return {transposeTimes(motion.R_WB, nhat_W), dot(nhat_W, motion.p_WB) - numbers.at<Isa>(3)};
 }
 
+/// What the fans of a pack make at one stage.
+template <class Isa>
+struct StageAir {
+  FanAtSpeed<Isa> fans[kMostLiftFans];
+  NumberOf<Isa> flows[kMostLiftFans];  // in the planar model: of their cells, each without its sign
+  NumberOf<Isa> left;                  // N, likewise: what the cells do not carry
+};
+
+/// @param pressures of the cells.
+template <class Isa>
+[[gnu::always_inline]] inline Wrench<Isa> pressureWrench(const GroundPlan& plan,
+                                                         const Numbers& numbers,
+                                                         const NumberOf<Isa>* pressures) {
+  using Number = NumberOf<Isa>;
+  Number force = Number{}, roll = Number{}, pitch = Number{};
+  for (std::size_t i = 0; i < plan.cell_pair_count; ++i) {
+    const PairStep& pair = plan.cell_pairs[i];
+    const Numbers first = numbers.from(plan.cellRow(pair.first));
+    Number pair_force = pressures[pair.first] * first.at<Isa>(3);
+    Number pair_roll = pair_force * first.at<Isa>(1);
+    Number pair_pitch = pair_force * first.at<Isa>(0);
+    if (pair.second != PairStep::kAlone) {
+      const Numbers second = numbers.from(plan.cellRow(pair.second));
+      const Number other = pressures[pair.second] * second.at<Isa>(3);
+      pair_roll = pair_roll + other * second.at<Isa>(1);
+      pair_pitch = pair_pitch + other * second.at<Isa>(0);
+      pair_force = pair_force + other;
+    }
+    force = force + pair_force;
+    roll = roll + pair_roll;
+    pitch = pitch + pair_pitch;
+  }
+  return {{Number{}, Number{}, force}, {roll, -pitch, Number{}}};
+}
+
+/// Where height is not computed the air does not depend on the motion.
+template <class Isa>
+[[gnu::always_inline]] inline void blowInPlane(const GroundPlan& plan, const Numbers& numbers,
+                                               StageAir<Isa>& air) {
+  using Number = NumberOf<Isa>;
+  const Numbers common = numbers.from(GroundPlan::cushionRow());
+  const Number wanted = common.at<Isa>(4);
+  Number pressures[kMostCells];
+  for (std::size_t i = 0; i < plan.fan_count; ++i) air.flows[i] = Number{};
+  for (std::size_t i = 0; i < plan.cell_count; ++i) {
+    const FanAtSpeed<Isa>& fan = air.fans[plan.cells[i].fan];
+    Number& flow = air.flows[plan.cells[i].fan];
+    pressures[i] = choose<Isa>(fan.shutoff < wanted, fan.shutoff, wanted);
+    flow = flow + absolute<Isa>(fanFlow<Isa>(fan, pressures[i]));
+  }
+  const Number carried = pressureWrench<Isa>(plan, numbers, pressures).force.z;
+  air.left = notNegative<Isa>(common.at<Isa>(3) - carried);
+}
+
 /// The cushion of a pack of craft at one stage.
 template <class Isa>
 struct PackCushion {
@@ -62,32 +116,21 @@ struct PackCushion {
   const GroundPlan& plan;
   const Numbers& numbers;
   const BodyMotion<Isa>& motion;
-  const FanAtSpeed<Isa>* fans;
   Numbers common;
   Number pressures[kMostCells];
-  Number flows[kMostLiftFans];  // of the cells of a fan, each without its sign
-  Number elastic[kMostHemPoints];
+  Number elastic[kMostHemPoints];  // how far the hem is pressed in, times its stiffness
 
   [[gnu::always_inline]] PackCushion(const GroundPlan& of, const Numbers& rows,
-                                     const BodyMotion<Isa>& moves, const FanAtSpeed<Isa>* turning)
-      : plan(of),
-        numbers(rows),
-        motion(moves),
-        fans(turning),
-        common(rows.from(GroundPlan::cushionRow())) {
-    for (std::size_t i = 0; i < plan.fan_count; ++i) flows[i] = Number{};
-  }
+                                     const BodyMotion<Isa>& moves)
+      : plan(of), numbers(rows), motion(moves), common(rows.from(GroundPlan::cushionRow())) {}
 
-  [[gnu::always_inline]] void take(std::size_t cell, const CellAir<Isa>& air) {
-    pressures[cell] = air.pressure;
-    Number& flow = flows[plan.cells[cell].fan];
-    flow = flow + absolute<Isa>(air.fan_flow);
-  }
-
-  /// Pressures, flows, and how far the hem is pressed in, times its stiffness.
-  [[gnu::always_inline]] void blow(const PlaneProbe<Isa>& probe) {
+  /// Pressures, and how far the hem is pressed in. @param flows of the cells of each fan, without
+  /// their signs.
+  [[gnu::always_inline]] void blow(const PlaneProbe<Isa>& probe, const FanAtSpeed<Isa>* fans,
+                                   Number* flows) {
     const Number half = same<Isa>(0.5);
     const Vector<Isa>& n = probe.nhat_B;
+    for (std::size_t i = 0; i < plan.fan_count; ++i) flows[i] = Number{};
     for (std::size_t i = 0; i < plan.cell_count; ++i) {
       const CellStep& cell = plan.cells[i];
       Number area_under_hem = Number{};
@@ -102,43 +145,13 @@ struct PackCushion {
       const Number area = place.at<Isa>(3);
       const Number outflow = common.at<Isa>(1) * leakArea<Isa>(area_under_hem, area);
       const Number pumping = area * dot(n, motion.velocityAt(place.vector<Isa>(0)));
-      take(i, cellAir<Isa>(fans[cell.fan], outflow, pumping));
+      const CellAir<Isa> air = cellAir<Isa>(fans[cell.fan], outflow, pumping);
+      pressures[i] = air.pressure;
+      flows[cell.fan] = flows[cell.fan] + absolute<Isa>(air.fan_flow);
     }
   }
 
-  /// Pressures and flows where height is not computed.
-  [[gnu::always_inline]] void blowInPlane() {
-    const Number wanted = common.at<Isa>(4);
-    for (std::size_t i = 0; i < plan.cell_count; ++i) {
-      const FanAtSpeed<Isa>& fan = fans[plan.cells[i].fan];
-      const Number pressure = choose<Isa>(fan.shutoff < wanted, fan.shutoff, wanted);
-      take(i, {pressure, fanFlow<Isa>(fan, pressure)});
-    }
-  }
-
-  [[gnu::always_inline]] Wrench<Isa> pressureWrench() const {
-    Number force = Number{}, roll = Number{}, pitch = Number{};
-    for (std::size_t i = 0; i < plan.cell_pair_count; ++i) {
-      const PairStep& pair = plan.cell_pairs[i];
-      const Numbers first = numbers.from(plan.cellRow(pair.first));
-      Number pair_force = pressures[pair.first] * first.at<Isa>(3);
-      Number pair_roll = pair_force * first.at<Isa>(1);
-      Number pair_pitch = pair_force * first.at<Isa>(0);
-      if (pair.second != PairStep::kAlone) {
-        const Numbers second = numbers.from(plan.cellRow(pair.second));
-        const Number other = pressures[pair.second] * second.at<Isa>(3);
-        pair_roll = pair_roll + other * second.at<Isa>(1);
-        pair_pitch = pair_pitch + other * second.at<Isa>(0);
-        pair_force = pair_force + other;
-      }
-      force = force + pair_force;
-      roll = roll + pair_roll;
-      pitch = pitch + pair_pitch;
-    }
-    return {{Number{}, Number{}, force}, {roll, -pitch, Number{}}};
-  }
-
-  [[gnu::always_inline]] Wrench<Isa> momentumDrag() const {
+  [[gnu::always_inline]] Wrench<Isa> momentumDrag(const Number* flows) const {
     Wrench<Isa> sum = {};
     for (std::size_t i = 0; i < plan.fan_count; ++i) {
       const Number mass_flow = common.at<Isa>(2) * flows[i];

@@ -43,34 +43,48 @@ template <class Isa>
 /// Of a cushion in space.
 template <class Isa>
 [[gnu::always_inline]] inline Wrench<Isa> cushionWrench(PackCushion<Isa>& cushion,
-                                                        const PlaneProbe<Isa>& probe) {
-  cushion.blow(probe);
-  const Wrench<Isa> air = cushion.pressureWrench() + cushion.momentumDrag();
+                                                        const PlaneProbe<Isa>& probe,
+                                                        const StageAir<Isa>& air) {
+  NumberOf<Isa> flows[kMostLiftFans];
+  cushion.blow(probe, air.fans, flows);
+  const Wrench<Isa> blown = pressureWrench<Isa>(cushion.plan, cushion.numbers, cushion.pressures) +
+                            cushion.momentumDrag(flows);
   const MaskOf<Isa> carries = cushion.common.template at<Isa>(9) > NumberOf<Isa>{};
-  if (Isa::allOf(~carries)) return air;
+  if (Isa::allOf(~carries)) return blown;
   Wrench<Isa> skirt = {};
   addSkirt<Isa>(cushion, probe.nhat_B, skirt);
-  return chosen<Isa>(carries, air + skirt, air);
+  return chosen<Isa>(carries, blown + skirt, blown);
 }
 
 /// Of a cushion in the planar model.
 template <class Isa>
-[[gnu::always_inline]] inline Wrench<Isa> planarCushionWrench(PackCushion<Isa>& cushion) {
+[[gnu::always_inline]] inline Wrench<Isa> planarCushionWrench(PackCushion<Isa>& cushion,
+                                                              const StageAir<Isa>& air) {
   using Number = NumberOf<Isa>;
   const GroundPlan& plan = cushion.plan;
-  cushion.blowInPlane();
-  const Number left =
-      notNegative<Isa>(cushion.common.template at<Isa>(3) - cushion.pressureWrench().force.z);
-  const Wrench<Isa> drag = cushion.momentumDrag();
-  const MaskOf<Isa> grinds = left > Number{};
+  const Wrench<Isa> drag = cushion.momentumDrag(air.flows);
+  const MaskOf<Isa> grinds = air.left > Number{};
   if (Isa::allOf(~grinds)) return drag;
-  const Number per_metre = left / cushion.common.template at<Isa>(5);
+  const Number per_metre = air.left / cushion.common.template at<Isa>(5);
   for (std::size_t k = 0; k < plan.point_count; ++k) {
     cushion.elastic[k] = per_metre * cushion.numbers.from(plan.pointRow(k)).template at<Isa>(3);
   }
   Wrench<Isa> sum = drag;
   addSkirt<Isa>(cushion, {Number{}, Number{}, same<Isa>(1.0)}, sum);
   return chosen<Isa>(grinds, sum, drag);
+}
+
+/// The fans of a pack at a stage: at the levels of actuators, or as they are described.
+template <class Isa>
+[[gnu::noinline]] void turnFans(const GroundPlan& plan, const Numbers& numbers, const Row* speeds,
+                                const NumberOf<Isa>* levels, StageAir<Isa>& air) {
+  for (std::size_t i = 0; i < plan.fan_count; ++i) {
+    const std::size_t id = plan.fans[i].actuator;
+    const NumberOf<Isa> speed = id == LiftFanStep::kDescribed ? load<Isa>(speeds[i], numbers.first)
+                                                              : notNegative<Isa>(levels[id]);
+    air.fans[i] = atSpeed<Isa>(numbers.rows + GroundPlan::fanRow(i), numbers.first, speed);
+  }
+  if (plan.is_planar) blowInPlane<Isa>(plan, numbers, air);
 }
 
 /// The vertices of hulls as springs.
@@ -122,21 +136,21 @@ struct PackPads {
 };
 
 /// Adds the wrench of a pack's ground in B. Not inlined: once for all stages and methods.
-/// @param numbers of the plan. @param fans of the cushion, at the stage.
+/// @param numbers of the plan. @param air of the cushion.
 template <class Isa>
 [[gnu::noinline]] void addGroundWrench(const GroundPlan& plan, const Numbers& numbers,
-                                       const BodyMotion<Isa>& motion, const FanAtSpeed<Isa>* fans,
+                                       const BodyMotion<Isa>& motion, const StageAir<Isa>* air,
                                        Wrench<Isa>& wrench_B) {
   if (plan.is_planar) {
-    PackCushion<Isa> cushion(plan, numbers, motion, fans);
-    wrench_B = wrench_B + planarCushionWrench<Isa>(cushion);
+    PackCushion<Isa> cushion(plan, numbers, motion);
+    wrench_B = wrench_B + planarCushionWrench<Isa>(cushion, *air);
     return;
   }
   const PlaneProbe<Isa> probe = planeProbe<Isa>(numbers, motion);
   Wrench<Isa> sum = {};
   if (plan.has_cushion) {
-    PackCushion<Isa> cushion(plan, numbers, motion, fans);
-    sum = cushionWrench<Isa>(cushion, probe);
+    PackCushion<Isa> cushion(plan, numbers, motion);
+    sum = cushionWrench<Isa>(cushion, probe, *air);
   }
   if (plan.has_pads) {
     const PackPads<Isa> pads = {plan, numbers, numbers.from(plan.padRow()), motion, probe};

@@ -39,7 +39,7 @@ template <class Isa>
 struct StageLoad {
   NumberOf<Isa> levels[kMostActuators];  // of each actuator
   Wrench<Isa> engines_B;
-  const FanAtSpeed<Isa>* fans;  // of the cushion, if there is one
+  const StageAir<Isa>* air;  // of the cushion, if there is one
 };
 
 /// The system that a stepper integrates: some columns of a block.
@@ -110,7 +110,7 @@ struct PackSystem {
       }
       if (plan.ground.isThere()) {
         addGroundWrench<Isa>(plan.ground, more.from(plan.ground.first_row),
-                             {R_WB, y.p, transposeTimes(R_WB, v_WB), w_WB_B, u_B}, at.fans,
+                             {R_WB, y.p, transposeTimes(R_WB, v_WB), w_WB_B, u_B}, at.air,
                              wrench_B);
       }
     }
