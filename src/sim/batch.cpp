@@ -40,7 +40,7 @@ InstructionSet chosenSet(const BatchOptions& options) {
 }  // namespace
 
 Batch::Batch(const Scenario& scenario, std::size_t count, const BatchOptions& options)
-    : kind_(batchKindOf(scenario)),
+    : kind_(batchKindOf(scenario, batchableModelOf(scenario))),
       threads_(options.threads),
       instruction_set_(chosenSet(options)),
       advance_(lanes::advanceBy(instruction_set_)) {
@@ -76,18 +76,24 @@ void Batch::addFans(const HovercraftModel& model) {
   grounds_.push_back(model.ground_forces);
 }
 
-void Batch::add(const Scenario& scenario) {
-  const FloatingPointEnvironment environment;
-  demand(tick_ == 0, "a run must be added before the first step");
+/// Of the run to be added.
+HovercraftModel Batch::modelOfRun(const Scenario& scenario) const {
   const std::string name = fmt::format("run {}", size());
   try {
-    requireSameKind(batchKindOf(scenario), kind_, name);
+    HovercraftModel model = batchableModelOf(scenario);
+    requireSameKind(batchKindOf(scenario, model), kind_, name);
+    return model;
   } catch (const std::invalid_argument& error) {
     const std::string text = error.what();
     throw std::invalid_argument(text.rfind(name, 0) == 0 ? text : name + ": " + text);
   }
+}
+
+void Batch::add(const Scenario& scenario) {
+  const FloatingPointEnvironment environment;
+  demand(tick_ == 0, "a run must be added before the first step");
+  const HovercraftModel model = modelOfRun(scenario);
   const VehicleScenario& craft = scenario.vehicles.front();
-  const HovercraftModel model = modelOf(scenario, craft);
   std::optional<Gusts> gusts = gustsOf(scenario);
   growBlocks();
   const std::size_t block = size() / kBlockLanes;

@@ -163,11 +163,15 @@ bool isBoundedPlanar(const Scenario& scenario, const HovercraftModel& model) {
 
 }  // namespace
 
-BatchKind batchKindOf(const Scenario& scenario) {
+HovercraftModel batchableModelOf(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   requireBatchable(scenario);
+  return modelOf(scenario, scenario.vehicles.front());
+}
+
+BatchKind batchKindOf(const Scenario& scenario, const HovercraftModel& model) {
+  const FloatingPointEnvironment environment;
   const VehicleScenario& craft = scenario.vehicles.front();
-  const HovercraftModel model = modelOf(scenario, craft);
   BatchKind kind;
   kind.step_ns = scenario.step_ns;
   kind.integrator = scenario.integrator;

@@ -84,6 +84,7 @@ class HOVERCRAFT_PUBLIC Batch {
 
   struct Around;
 
+  HovercraftModel modelOfRun(const Scenario& scenario) const;
   void growBlocks();
   Tick takeEvents(std::size_t run, Tick tick);
   void advanceBlock(std::size_t block, Tick end);

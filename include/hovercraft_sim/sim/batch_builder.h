@@ -31,8 +31,12 @@ struct LaneActuator {
   Tick command_tick = EngineState::kNever;
 };
 
-/// @throws std::invalid_argument that names the key of what a batch cannot do.
-BatchKind batchKindOf(const Scenario& scenario);
+/// The model of the craft of a scenario. @throws std::invalid_argument that names the key of what a
+/// batch cannot do.
+HovercraftModel batchableModelOf(const Scenario& scenario);
+
+/// @param model of the scenario.
+BatchKind batchKindOf(const Scenario& scenario, const HovercraftModel& model);
 
 /// @throws std::invalid_argument that begins with the name and names the key in which a run differs
 /// where it must not.
