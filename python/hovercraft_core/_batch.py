@@ -6,10 +6,11 @@ from ._simulation import Scenario
 
 
 class Batch:
-    """Many runs at once, each of one craft that meets nothing: at every tick the same bits as a `Simulation` of each.
+    """Many runs at once, each of one craft that meets nothing but a plane: at every tick the same bits as a `Simulation` of each.
 
-    A scenario must have one craft, orientation by quaternion, and no world, ground, cushion or sensors. All runs have one
-    step_size, integrator and model, the same actuators, and gusts or none; any other number may be another one in each run.
+    A scenario must have one craft, orientation by quaternion, and no world, height map or sensors. All runs have one step_size,
+    integrator and model, the same actuators, as many cells, hem points and fans of cushions and vertices of hulls on a ground,
+    and gusts or none; any other number may be another one in each run.
     Calls from several threads wait for each other; while one steps, Python's other threads go on.
     """
 

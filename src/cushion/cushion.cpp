@@ -63,17 +63,17 @@ class Cushion::PlaneProbe {
 class Cushion::SampledProbe {
  public:
   SampledProbe(const Ground& ground, const BodyMotion& motion, const Cushion& cushion)
-      : R_WB_(motion.R_WB), point_count_(cushion.hem_.size()) {
+      : R_WB_(motion.R_WB), point_count_(cushion.layout_.hem.size()) {
     std::array<GroundPoint, kMaxHemPoints + kMaxCells> points;
     int count = 0;
     const auto add = [&](const Vector3& p_B) {
       const Vector3 p_W = times(motion.R_WB, p_B) + motion.p_WB;
       points[static_cast<std::size_t>(count++)] = {p_W.x(), p_W.y(), p_W.z()};
     };
-    for (std::size_t k = 0; k < point_count_; ++k) add(cushion.hem_.at(k));
-    for (const Cell& cell : cushion.cells_) add(cell.p_BC);
-    const double below = (times(motion.R_WB, cushion.p_BH_) + motion.p_WB).z();
-    ground.sample({points.data(), count, below, cushion.reach_}, samples_.data());
+    for (std::size_t k = 0; k < point_count_; ++k) add(cushion.layout_.hem.at(k));
+    for (const Cell& cell : cushion.layout_.cells) add(cell.p_BC);
+    const double below = (times(motion.R_WB, cushion.layout_.p_BH) + motion.p_WB).z();
+    ground.sample({points.data(), count, below, cushion.layout_.reach}, samples_.data());
   }
 
   void gaps(const Hem& /*hem*/, Column& gaps) const {
@@ -152,9 +152,10 @@ class Cushion::HemWrenches {
 };
 
 Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
-    : parameters_(parameters), p_BH_(-p_HB) {
+    : parameters_(parameters) {
   const FloatingPointEnvironment environment;
-  outflow_factor_ = parameters.discharge * std::sqrt(2.0 / parameters.air_density);
+  layout_.p_BH = -p_HB;
+  layout_.outflow_factor = parameters.discharge * std::sqrt(2.0 / parameters.air_density);
   demand(!parameters.cells.empty() && parameters.cells.size() <= kMaxCells,
          "a cushion has at least one cell, and no more than fit");
   demand(parameters.fans.size() <= kMaxFans, "a cushion has no more fans than fit");
@@ -167,29 +168,29 @@ Cushion::Cushion(const CushionParameters& parameters, const Vector3& p_HB)
     cell.p_BC = described.p_HC - p_HB;
     cell.area = described.area;
     cell.fan = described.fan;
-    cell.first_point = hem_.size();
+    cell.first_point = layout_.hem.size();
     for (const HemPoint& point : described.hem) {
       const Vector3 p_BK = point.p_HK - p_HB;
-      hem_.x.push_back(p_BK.x());
-      hem_.y.push_back(p_BK.y());
-      hem_.z.push_back(p_BK.z());
-      hem_.length.push_back(point.length);
-      hem_.stiffness.push_back(point.length * parameters.skirt.stiffness);
+      layout_.hem.x.push_back(p_BK.x());
+      layout_.hem.y.push_back(p_BK.y());
+      layout_.hem.z.push_back(p_BK.z());
+      layout_.hem.length.push_back(point.length);
+      layout_.hem.stiffness.push_back(point.length * parameters.skirt.stiffness);
       cell.hem_length += point.length;
       placed_points.push_back({p_BK, point.length});
     }
-    cell.end_point = hem_.size();
+    cell.end_point = layout_.hem.size();
     demand(cell.end_point > cell.first_point, "a cell has hem");
-    total_area_ += cell.area;
-    reach_ = std::max(reach_, kMostCompression * described.height);
-    total_length_ += cell.hem_length;
+    layout_.total_area += cell.area;
+    layout_.reach = std::max(layout_.reach, kMostCompression * described.height);
+    layout_.total_length += cell.hem_length;
     placed_cells.push_back({cell.p_BC, cell.area});
-    cells_.push_back(cell);
+    layout_.cells.push_back(cell);
   }
-  demand(hem_.size() <= kMaxHemPoints, "a cushion has no more hem points than fit");
-  for (const CushionFan& fan : parameters.fans) intakes_B_.emplace_back(fan.p_HI - p_HB);
-  cell_pairs_ = mirrorPairs(placed_cells);
-  point_pairs_ = mirrorPairs(placed_points);
+  demand(layout_.hem.size() <= kMaxHemPoints, "a cushion has no more hem points than fit");
+  for (const CushionFan& fan : parameters.fans) layout_.intakes_B.emplace_back(fan.p_HI - p_HB);
+  layout_.cell_pairs = mirrorPairs(placed_cells);
+  layout_.point_pairs = mirrorPairs(placed_points);
 }
 
 FanSpeeds Cushion::describedSpeeds(double time) const {
@@ -216,23 +217,23 @@ void Cushion::blow(const BodyMotion& motion, const FanSpeeds& speeds, const Prob
   for (std::size_t i = 0; i < parameters_.fans.size(); ++i) {
     fans[i] = atSpeed(parameters_.fans[i].curve, speeds[i]);
   }
-  probe.gaps(hem_, airs.gap);
-  const std::size_t count = hem_.size();
+  probe.gaps(layout_.hem, airs.gap);
+  const std::size_t count = layout_.hem.size();
   for (std::size_t k = 0; k < count; ++k) {
     const HemGap hem = hemGap(airs.gap[k], parameters_.residual_gap);
     airs.open[k] = hem.open;
     airs.compression[k] = hem.compression;
   }
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const Cell& cell = cells_[i];
+  for (std::size_t i = 0; i < layout_.cells.size(); ++i) {
+    const Cell& cell = layout_.cells[i];
     double area_under_hem = 0.0;
     double gaps = 0.0;
     for (std::size_t k = cell.first_point; k < cell.end_point; ++k) {
-      area_under_hem += hem_.length[k] * airs.open[k];
-      gaps += hem_.length[k] * airs.gap[k];
+      area_under_hem += layout_.hem.length[k] * airs.open[k];
+      gaps += layout_.hem.length[k] * airs.gap[k];
     }
     airs.mean_gap[i] = gaps / cell.hem_length;
-    const double outflow = outflow_factor_ * leakArea(area_under_hem, cell.area);
+    const double outflow = layout_.outflow_factor * leakArea(area_under_hem, cell.area);
     const double pumping = cell.area * dot(probe.normalAtCell(i), motion.velocityAt(cell.p_BC));
     airs.air[i] = cellAir(fans[cell.fan], outflow, pumping);
   }
@@ -244,16 +245,16 @@ Wrench Cushion::pressureWrench(const Airs& airs) const {
   double force = 0.0;
   double roll = 0.0;
   double pitch = 0.0;
-  for (const MirrorPair& pair : cell_pairs_) {
+  for (const MirrorPair& pair : layout_.cell_pairs) {
     const auto first = static_cast<std::size_t>(pair[0]);
-    double pair_force = airs.air[first].pressure * cells_[first].area;
-    double pair_roll = pair_force * cells_[first].p_BC.y();
-    double pair_pitch = pair_force * cells_[first].p_BC.x();
+    double pair_force = airs.air[first].pressure * layout_.cells[first].area;
+    double pair_roll = pair_force * layout_.cells[first].p_BC.y();
+    double pair_pitch = pair_force * layout_.cells[first].p_BC.x();
     if (pair[1] >= 0) {
       const auto second = static_cast<std::size_t>(pair[1]);
-      const double other = airs.air[second].pressure * cells_[second].area;
-      pair_roll += other * cells_[second].p_BC.y();
-      pair_pitch += other * cells_[second].p_BC.x();
+      const double other = airs.air[second].pressure * layout_.cells[second].area;
+      pair_roll += other * layout_.cells[second].p_BC.y();
+      pair_pitch += other * layout_.cells[second].p_BC.x();
       pair_force += other;
     }
     force += pair_force;
@@ -266,25 +267,26 @@ Wrench Cushion::pressureWrench(const Airs& airs) const {
 template <class Probe>
 Wrench Cushion::skirtWrench(const BodyMotion& motion, const Probe& probe, const Airs& airs) const {
   Column elastic;
-  const std::size_t count = hem_.size();
-  for (std::size_t k = 0; k < count; ++k) elastic[k] = hem_.stiffness[k] * airs.compression[k];
+  const std::size_t count = layout_.hem.size();
+  for (std::size_t k = 0; k < count; ++k)
+    elastic[k] = layout_.hem.stiffness[k] * airs.compression[k];
   HemWrenches wrenches;
-  wrenches.fill(hem_, parameters_.skirt.spring, motion, probe, elastic);
-  return wrenches.sum(point_pairs_);
+  wrenches.fill(layout_.hem, parameters_.skirt.spring, motion, probe, elastic);
+  return wrenches.sum(layout_.point_pairs);
 }
 
 /// What a fan takes in is brought to the craft's velocity at its intake:
 /// F = -m_dot u(r_in), M = r_in x F, m_dot = rho |Q|. (24)
 Wrench Cushion::momentumDrag(const BodyMotion& motion, const Airs& airs) const {
   std::array<double, kMaxFans> flows = {};
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    flows[cells_[i].fan] += std::abs(airs.air[i].fan_flow);
+  for (std::size_t i = 0; i < layout_.cells.size(); ++i) {
+    flows[layout_.cells[i].fan] += std::abs(airs.air[i].fan_flow);
   }
   Wrench sum;
-  for (std::size_t i = 0; i < intakes_B_.size(); ++i) {
+  for (std::size_t i = 0; i < layout_.intakes_B.size(); ++i) {
     const double mass_flow = parameters_.air_density * flows[i];
-    const Vector3 force = -mass_flow * (motion.u_B + cross(motion.w_WB_B, intakes_B_[i]));
-    sum = sum + Wrench{force, cross(intakes_B_[i], force)};
+    const Vector3 force = -mass_flow * (motion.u_B + cross(motion.w_WB_B, layout_.intakes_B[i]));
+    sum = sum + Wrench{force, cross(layout_.intakes_B[i], force)};
   }
   return sum;
 }
@@ -310,9 +312,10 @@ Wrench Cushion::wrenchInBody(const BodyMotion& motion, const FanSpeeds& speeds,
 /// Each cell has the pressure that carries its share of the load, or that of its fan without flow,
 /// if that is less: the hem then lies on the ground.
 void Cushion::planarAirs(const FanSpeeds& speeds, double load, Airs& airs) const {
-  const double wanted = load / total_area_;
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const FanAtSpeed fan = atSpeed(parameters_.fans[cells_[i].fan].curve, speeds[cells_[i].fan]);
+  const double wanted = load / layout_.total_area;
+  for (std::size_t i = 0; i < layout_.cells.size(); ++i) {
+    const FanAtSpeed fan =
+        atSpeed(parameters_.fans[layout_.cells[i].fan].curve, speeds[layout_.cells[i].fan]);
     const double pressure = std::min(wanted, fan.shutoff);
     airs.air[i] = {pressure, fanFlow(fan, pressure)};
     airs.mean_gap[i] = 0.0;
@@ -324,28 +327,29 @@ Wrench Cushion::planarWrenchInBody(const BodyMotion& motion, const FanSpeeds& sp
   Airs airs;
   planarAirs(speeds, load, airs);
   const double left = std::max(0.0, load - pressureWrench(airs).force.z());
-  const double per_metre = left / total_length_;
+  const double per_metre = left / layout_.total_length;
   const auto wrench_of = [&](int index) -> Wrench {
     const auto k = static_cast<std::size_t>(index);
-    const Vector3 p_BK = hem_.at(k);
+    const Vector3 p_BK = layout_.hem.at(k);
     Vector3 velocity = motion.velocityAt(p_BK);
     velocity.z() = 0.0;
-    const Vector3 force =
-        parameters_.skirt.spring.force(per_metre * hem_.length[k], Vector3::UnitZ(), velocity);
+    const Vector3 force = parameters_.skirt.spring.force(per_metre * layout_.hem.length[k],
+                                                         Vector3::UnitZ(), velocity);
     return {force, cross(p_BK, force)};
   };
   Wrench sum = momentumDrag(motion, airs);
   if (!(left > 0.0)) return sum;
-  for (const MirrorPair& pair : point_pairs_) {
+  for (const MirrorPair& pair : layout_.point_pairs) {
     sum = sum + (pair[1] < 0 ? wrench_of(pair[0]) : wrench_of(pair[0]) + wrench_of(pair[1]));
   }
   return sum;
 }
 
 void Cushion::write(const Airs& airs, CellReport* reports) const {
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
+  for (std::size_t i = 0; i < layout_.cells.size(); ++i) {
     const CellAir& air = airs.air[i];
-    reports[i] = {air.pressure, airs.mean_gap[i], air.fan_flow, air.pressure * cells_[i].area};
+    reports[i] = {air.pressure, airs.mean_gap[i], air.fan_flow,
+                  air.pressure * layout_.cells[i].area};
   }
 }
 

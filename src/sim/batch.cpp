@@ -13,6 +13,7 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/scenario/air_parser.h"
 #include "hovercraft_sim/scenario/world_builder.h"
+#include "hovercraft_sim/sim/batch_ground.h"
 #include "hovercraft_sim/sim/state_hash.h"
 
 namespace hovercraft {
@@ -22,8 +23,9 @@ using lanes::kBlockLanes;
 using lanes::Row;
 
 constexpr Tick kNever = std::numeric_limits<Tick>::max();
-/// Ticks of gusts that are drawn for a block at once: a few kilobytes.
-constexpr Tick kGustTicks = 32;
+/// Ticks of which gusts are drawn, and fans' speeds are looked up, for a block at once: some
+/// kilobytes.
+constexpr Tick kTicksAhead = 32;
 /// Blocks that a thread takes at once: what it costs to ask for them does not count then.
 constexpr std::size_t kBlocksAtOnce = 16;
 
@@ -38,7 +40,7 @@ InstructionSet chosenSet(const BatchOptions& options) {
 }  // namespace
 
 Batch::Batch(const Scenario& scenario, std::size_t count, const BatchOptions& options)
-    : kind_(batchKindOf(scenario)),
+    : kind_(batchKindOf(scenario, batchableModelOf(scenario))),
       threads_(options.threads),
       instruction_set_(chosenSet(options)),
       advance_(lanes::advanceBy(instruction_set_)) {
@@ -60,20 +62,38 @@ void Batch::growBlocks() {
   blocks_.push_back(idleBlock());
   wind_W_.resize(wind_W_.size() + 3, Row{});
   more_.resize(more_.size() + kind_.rows, Row{});
+  fan_speeds_.resize(fan_speeds_.size() + fanRows(), Row{});
+}
+
+/// Of the run that is being added.
+void Batch::addFans(const HovercraftModel& model) {
+  if (!kind_.plan.ground.has_cushion) return;
+  const std::size_t run = grounds_.size();
+  const Cushion& cushion = *model.ground_forces->cushion();
+  writeFanSpeeds(cushion, 0, kind_.step_ns, run % kBlockLanes,
+                 fan_speeds_.data() + run / kBlockLanes * fanRows());
+  fans_follow_time_ = fans_follow_time_ || fansFollowTime(cushion);
+  grounds_.push_back(model.ground_forces);
+}
+
+/// Of the run to be added.
+HovercraftModel Batch::modelOfRun(const Scenario& scenario) const {
+  const std::string name = fmt::format("run {}", size());
+  try {
+    HovercraftModel model = batchableModelOf(scenario);
+    requireSameKind(batchKindOf(scenario, model), kind_, name);
+    return model;
+  } catch (const std::invalid_argument& error) {
+    const std::string text = error.what();
+    throw std::invalid_argument(text.rfind(name, 0) == 0 ? text : name + ": " + text);
+  }
 }
 
 void Batch::add(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   demand(tick_ == 0, "a run must be added before the first step");
-  const std::string name = fmt::format("run {}", size());
-  try {
-    requireSameKind(batchKindOf(scenario), kind_, name);
-  } catch (const std::invalid_argument& error) {
-    const std::string text = error.what();
-    throw std::invalid_argument(text.rfind(name, 0) == 0 ? text : name + ": " + text);
-  }
+  const HovercraftModel model = modelOfRun(scenario);
   const VehicleScenario& craft = scenario.vehicles.front();
-  const HovercraftModel model = modelOf(scenario, craft);
   std::optional<Gusts> gusts = gustsOf(scenario);
   growBlocks();
   const std::size_t block = size() / kBlockLanes;
@@ -81,6 +101,7 @@ void Batch::add(const Scenario& scenario) {
   writeLane(scenario, model, dynamics,
             {blocks_[block], wind_W_.data() + 3 * block, more_.data() + block * kind_.rows,
              size() % kBlockLanes});
+  addFans(model);
   const EngineStates engines = initialActuators(craft);
   for (std::size_t id = 0; id < engines.size(); ++id) {
     actuators_.push_back({dynamics.rule(id), engines[id].commanded, engines[id].command_tick});
@@ -137,14 +158,15 @@ Tick Batch::takeEvents(std::size_t run, Tick tick) {
   return next;
 }
 
-/// The wind at a block's craft over some steps.
-struct Batch::BlockAir {
-  std::array<Row, static_cast<std::size_t>(3 * kGustTicks)> wind_W;  // three for each step
-  std::array<GustState, kBlockLanes> before;                         // of the gusts at their begin
+/// What surrounds a block's craft over some steps.
+struct Batch::Around {
+  std::array<Row, static_cast<std::size_t>(3 * kTicksAhead)> wind_W;  // three for each step
+  std::array<GustState, kBlockLanes> before;                          // of the gusts at their begin
+  std::array<Row, 3 * kMaxFans* static_cast<std::size_t>(kTicksAhead)> fan_speeds;
 };
 
 /// The wind in the steps from a tick on; gusts go on to the tick after them.
-void Batch::blow(std::size_t block, Tick tick, Tick count, BlockAir& around) {
+void Batch::blow(std::size_t block, Tick tick, Tick count, Around& around) {
   for (std::size_t lane = 0; lane < kBlockLanes; ++lane) {
     const std::size_t run = block * kBlockLanes + lane;
     if (run < size()) around.before[lane] = airs_[run].state;
@@ -162,8 +184,19 @@ void Batch::blow(std::size_t block, Tick tick, Tick count, BlockAir& around) {
   }
 }
 
+/// The fans' speeds in the steps from a tick on.
+void Batch::turnFans(std::size_t block, Tick tick, Tick count, Around& around) const {
+  for (std::size_t lane = 0; lane < kBlockLanes; ++lane) {
+    const std::size_t run = block * kBlockLanes + std::min(lane, lanesOf(block) - 1);
+    Row* step = around.fan_speeds.data();
+    for (Tick i = 0; i < count; ++i, step += fanRows()) {
+      writeFanSpeeds(*grounds_[run]->cushion(), tick + i, kind_.step_ns, lane, step);
+    }
+  }
+}
+
 /// Gusts at craft that were lost stay as they were at that tick. @param begin of the steps.
-void Batch::calm(std::size_t block, Tick begin, const BlockAir& around) {
+void Batch::calm(std::size_t block, Tick begin, const Around& around) {
   for (std::size_t lane = 0; lane < lanesOf(block); ++lane) {
     const std::size_t run = block * kBlockLanes + lane;
     if (diverged_[run] == kNever) continue;
@@ -188,7 +221,8 @@ void Batch::noteLost(std::size_t block, Tick begin) {
 /// Takes the events of a block's runs at a tick. @returns the tick of the next one, at most the
 /// end.
 Tick Batch::nextEvent(std::size_t block, Tick tick, Tick end) {
-  Tick next = airs_.empty() ? end : std::min(end, tick + kGustTicks);
+  const bool looks_ahead = !airs_.empty() || fans_follow_time_;
+  Tick next = looks_ahead ? std::min(end, tick + kTicksAhead) : end;
   for (std::size_t lane = 0; lane < lanesOf(block); ++lane) {
     next = std::min(next, takeEvents(block * kBlockLanes + lane, tick));
   }
@@ -197,15 +231,25 @@ Tick Batch::nextEvent(std::size_t block, Tick tick, Tick end) {
 
 void Batch::advanceBlock(std::size_t block, Tick end) {
   const bool has_gusts = !airs_.empty();
-  BlockAir around;
+  Around around;
   for (Tick tick = tick_; tick < end;) {
     const Tick next = nextEvent(block, tick, end);
-    lanes::BlockSteps steps = {&blocks_[block], moreOf(block), wind_W_.data() + 3 * block, 0,
-                               next - tick};
+    lanes::BlockSteps steps = {&blocks_[block],
+                               moreOf(block),
+                               wind_W_.data() + 3 * block,
+                               0,
+                               next - tick,
+                               fan_speeds_.data() + block * fanRows(),
+                               0};
     if (has_gusts) {
       blow(block, tick, steps.count, around);
       steps.wind_W = around.wind_W.data();
       steps.wind_stride = 3;
+    }
+    if (fans_follow_time_) {
+      turnFans(block, tick, steps.count, around);
+      steps.fan_speeds = around.fan_speeds.data();
+      steps.fan_stride = fanRows();
     }
     advance_(kind_.plan, steps);
     noteLost(block, tick);

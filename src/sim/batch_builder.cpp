@@ -8,6 +8,7 @@
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/scenario/world_builder.h"
+#include "hovercraft_sim/sim/batch_ground.h"
 
 namespace hovercraft {
 namespace {
@@ -27,14 +28,10 @@ void requireBatchable(const Scenario& scenario) {
   refuse(scenario.vehicles.size() != 1, "vehicles", "a run of a batch must have one craft");
   const VehicleScenario& craft = scenario.vehicles.front();
   const std::string key = "vehicles." + craft.name;
-  refuse(craft.cushion.has_value(), key + ".cushion", "a batch computes no cushion: must not be");
-  refuse(scenario.ground && std::holds_alternative<HeightMapScenario>(scenario.ground->surface),
-         "ground.height_map", "a batch computes no ground: must not be");
-  refuse(scenario.ground.has_value(), "ground", "a batch computes no ground: must not be");
+  requireBatchableGround(scenario);
   refuse(!craft.sensors.empty(), key + ".sensors", "a batch reads no sensors: must not be");
   refuse(scenario.orientation != OrientationKind::kQuaternion, "orientation",
          "must be quaternion in a batch");
-  refuse(scenario.integrator == Integrator::kLie4, "integrator", "must not be lie4 in a batch");
 }
 
 lanes::Method methodOf(Integrator integrator) {
@@ -48,7 +45,7 @@ lanes::Method methodOf(Integrator integrator) {
     case Integrator::kRungeKutta4:
       return lanes::Method::kRungeKutta4;
     case Integrator::kLie4:
-      break;
+      return lanes::Method::kLie4;
   }
   demand(false, "a batch must be of a method that it has");
   return lanes::Method::kHeun;
@@ -57,9 +54,14 @@ lanes::Method methodOf(Integrator integrator) {
 /// Writes numbers of one lane into rows, one below the other.
 class LaneWriter {
  public:
-  LaneWriter(Row* rows, std::size_t lane) : row_(rows), lane_(lane) {}
+  /// @param end of the lanes that get them; those behind the first have no run yet.
+  LaneWriter(Row* rows, std::size_t lane, std::size_t end) : row_(rows), lane_(lane), end_(end) {}
+  LaneWriter(Row* rows, std::size_t lane) : LaneWriter(rows, lane, lane + 1) {}
 
-  void number(double value) { (row_++)->of[lane_] = value; }
+  void number(double value) {
+    std::fill(row_->of + lane_, row_->of + end_, value);
+    ++row_;
+  }
   void vector(const Vector3& v) {
     for (int i = 0; i < 3; ++i) number(v[i]);
   }
@@ -70,6 +72,7 @@ class LaneWriter {
  private:
   Row* row_;
   std::size_t lane_;
+  std::size_t end_;
 };
 
 /// A force as a step of a plan, and the numbers of one, in one order.
@@ -160,12 +163,15 @@ bool isBoundedPlanar(const Scenario& scenario, const HovercraftModel& model) {
 
 }  // namespace
 
-BatchKind batchKindOf(const Scenario& scenario) {
+HovercraftModel batchableModelOf(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
   requireBatchable(scenario);
+  return modelOf(scenario, scenario.vehicles.front());
+}
+
+BatchKind batchKindOf(const Scenario& scenario, const HovercraftModel& model) {
+  const FloatingPointEnvironment environment;
   const VehicleScenario& craft = scenario.vehicles.front();
-  const HovercraftModel model = modelOf(scenario, craft);
-  demand(model.ground_forces == nullptr, "what is refused makes no ground forces");
   BatchKind kind;
   kind.step_ns = scenario.step_ns;
   kind.integrator = scenario.integrator;
@@ -195,6 +201,9 @@ BatchKind batchKindOf(const Scenario& scenario) {
     plan.rotors[plan.rotor_count++] = {rotor.id, rotor.by_square_root, kind.rows};
     kind.rows += lanes::kRotorRows;
   }
+  plan.ground = groundPlanOf(scenario, model);
+  plan.ground.first_row = kind.rows;
+  kind.rows += plan.ground.rowCount();
   return kind;
 }
 
@@ -221,6 +230,7 @@ void requireSameKind(const BatchKind& kind, const BatchKind& first, const std::s
   require(std::equal(kind.plan.rotors, last(kind.plan), first.plan.rotors, last(first.plan),
                      is_same_rotor),
           "which actuators have a rotor");
+  requireSameGround(kind.plan.ground, first.plan.ground, name);
 }
 
 void writeLane(const Scenario& scenario, const HovercraftModel& model,
@@ -235,12 +245,13 @@ void writeLane(const Scenario& scenario, const HovercraftModel& model,
   LaneWriter(place.wind_W, lane).vector(scenario.wind);
   ForceNumbers numbers;
   for (const Force& force : model.forces) std::visit(numbers, force);
-  LaneWriter more(place.more, lane);
+  LaneWriter more(place.more, lane, lanes::kBlockLanes);  // so that nothing is divided by 0
   for (const double number : numbers.numbers) more.number(number);
   for (const Rotor& rotor : model.rotors) {
     more.number(rotor.scale);
     more.vector(rotor.axis);
   }
+  for (const double number : groundNumbersOf(scenario, model)) more.number(number);
   const BodyState initial = initialState(scenario, craft, model.mobility);
   const auto* body = std::get_if<RigidBodyState<Quaternion>>(&initial);
   demand(body != nullptr, "a batch turns by quaternions");

@@ -88,6 +88,8 @@ Block planarBlock(std::uint32_t seed, bool is_known) {
   return block;
 }
 
+constexpr std::size_t kRowsOfForces = 102;  // of planOf()
+
 /// A force of each kind and two rotors, or none of them.
 StepPlan planOf(Method method, bool has_more) {
   StepPlan plan;
@@ -112,6 +114,29 @@ StepPlan planOf(Method method, bool has_more) {
   return plan;
 }
 
+/// On a cushion of two cells and two fans, one of them turned by an actuator, and on pads.
+GroundPlan groundOf(bool is_planar, std::size_t first_row) {
+  GroundPlan ground;
+  ground.has_cushion = true;
+  ground.is_planar = is_planar;
+  ground.has_pads = !is_planar;
+  ground.fan_count = ground.cell_count = 2;
+  ground.fans[1].actuator = 2;
+  ground.point_count = 5;
+  ground.cells[0] = {0, 0, 2};
+  ground.cells[1] = {1, 2, 5};
+  ground.cell_pairs[0] = {1, 0};
+  ground.cell_pair_count = 1;
+  ground.point_pairs[0] = {0, 3};
+  ground.point_pairs[1] = {1, PairStep::kAlone};
+  ground.point_pairs[2] = {4, 2};
+  ground.point_pair_count = 3;
+  ground.vertex_count = is_planar ? 0 : 5;
+  ground.paired_count = is_planar ? 0 : 2;
+  ground.first_row = first_row;
+  return ground;
+}
+
 /// Everything that a block's state is, in bits.
 std::vector<std::uint64_t> bitsOf(const BlockState& state) {
   std::vector<std::uint64_t> bits(sizeof(state) / sizeof(std::uint64_t));
@@ -120,22 +145,24 @@ std::vector<std::uint64_t> bitsOf(const BlockState& state) {
 }
 
 std::vector<std::uint64_t> bitsAfter(Advance advance, const StepPlan& plan, std::uint32_t seed) {
-  constexpr std::size_t kMostRows = 102;  // of planOf()
   constexpr std::size_t kSteps = 40;
+  const std::size_t row_count = kRowsOfForces + plan.ground.rowCount();
   RandomBlock random(seed);
   Block block = random.block();
-  std::vector<Row> more(kMostRows);
-  random.fill(more.data(), kMostRows, 0.1, 0.4);
+  std::vector<Row> more(row_count);
+  random.fill(more.data(), row_count, 0.1, 0.4);
   std::vector<Row> winds(3 * kSteps);
   random.fill(winds.data(), winds.size(), -2.0, 2.0);
-  advance(plan, {&block, more.data(), winds.data(), 3, kSteps});
-  advance(plan, {&block, more.data(), winds.data(), 0, kSteps});
+  std::vector<Row> speeds(6 * kSteps);  // of two fans
+  random.fill(speeds.data(), speeds.size(), 0.5, 1.0);
+  advance(plan, {&block, more.data(), winds.data(), 3, kSteps, speeds.data(), 6});
+  advance(plan, {&block, more.data(), winds.data(), 0, kSteps, speeds.data(), 0});
   return bitsOf(block.state);
 }
 
 TEST(LaneAdvance, EveryInstructionSetHasTheBitsOfOneCraftAtATime) {
-  for (const Method method :
-       {Method::kEuler, Method::kSemiImplicitEuler, Method::kHeun, Method::kRungeKutta4}) {
+  for (const Method method : {Method::kEuler, Method::kSemiImplicitEuler, Method::kHeun,
+                              Method::kRungeKutta4, Method::kLie4}) {
     for (const bool has_more : {false, true}) {
       const StepPlan plan = planOf(method, has_more);
       for (std::uint32_t seed = 1; seed < 20; ++seed) {
@@ -145,6 +172,25 @@ TEST(LaneAdvance, EveryInstructionSetHasTheBitsOfOneCraftAtATime) {
               << instructionSetName(set) << ", method " << static_cast<int>(method) << ", seed "
               << seed;
         }
+      }
+    }
+  }
+}
+
+TEST(LaneAdvance, CraftOverGroundHaveTheBitsOfOneCraftAtATime) {
+  for (const Method method : {Method::kEuler, Method::kHeun, Method::kLie4}) {
+    for (const bool is_planar : {false, true}) {
+      StepPlan plan = planOf(method, true);
+      plan.ground = groundOf(is_planar, kRowsOfForces);
+      for (std::uint32_t seed = 1; seed < 20; ++seed) {
+        const auto expected = bitsAfter(kAdvanceScalar, plan, seed);
+        for (const InstructionSet set : availableInstructionSets()) {
+          ASSERT_EQ(bitsAfter(advanceBy(set), plan, seed), expected)
+              << instructionSetName(set) << ", method " << static_cast<int>(method) << ", seed "
+              << seed;
+        }
+        if (method != Method::kHeun) continue;
+        ASSERT_EQ(bitsAfter(advanceBlock<Eight, Method::kHeun>, plan, seed), expected) << seed;
       }
     }
   }

@@ -309,6 +309,20 @@ class Flights(Folder):
                 self.assertEqual({row[2] for row in rows}, {"ok", "refused", "diverged"})
                 self.assertGreater(len(flown), 30)
 
+    def test_craft_on_cushions_fly_side_by_side_too(self):
+        cushion = "vehicles.rc5.cushion."
+        plan = self.plan(scenario=os.path.join(ROOT, "config", "rc5.yaml"), runs=20,
+                         metrics={"x": {"final": "position.x"}, "height": {"min": "position.z"}, "turn": {"rms": "yaw_rate"}},
+                         vary={"vehicles.rc5.mass": {"uniform": {"min": 4.8, "max": 5.4}}, "command_delay": {"uniform": {"min": 0.0, "max": 0.2}},
+                               cushion + "discharge": {"uniform": {"min": 0.55, "max": 0.65}},
+                               cushion + "skirt.stiffness": {"uniform": {"min": 2000, "max": 3000}}})
+        drawn = design.draw(plan)
+        flyer = flight.Flyer(plan)
+        rows = [row for group in flyer.groups(drawn) for row in flyer.rows(group)]
+        self.assertEqual(rows, [flight.Flyer(plan).row(cells) for cells in drawn])
+        self.assertEqual({row[2] for row in rows}, {"ok"})
+        self.assertTrue(all(found is not None for found in flyer.together.fly(drawn)))
+
     def test_what_a_batch_cannot_fly_is_flown_one_by_one(self):
         own = {"own": {"function": "study_functions:last_x"}}
         for plan in (self.plan(metrics=own, runs=2), self.plan(**{**CONTROLLED, "runs": 2})):

@@ -12,6 +12,7 @@
 #include "hovercraft_sim/sim/simulation.h"
 #include "hovercraft_sim/sim/state_hash.h"
 
+#include "../support/batch_beside.h"
 #include "../support/foreign_environment.h"
 #include "../support/random_craft.h"
 #include "../support/same_bits.h"
@@ -20,60 +21,11 @@
 namespace hovercraft {
 namespace {
 
+using testing::Beside;
 using testing::bitsOf;
 using testing::RandomCraft;
 using testing::shareOf;
-
-/// A batch of one instruction set beside a Simulation of each of its runs.
-class Beside {
- public:
-  Beside(const std::vector<Scenario>& scenarios, InstructionSet set, int threads = 1)
-      : batch_(scenarios, {threads, set}) {
-    for (const Scenario& scenario : scenarios) simulations_.emplace_back(scenario);
-    lost_.resize(scenarios.size());
-  }
-
-  Batch& batch() { return batch_; }
-
-  void push(std::size_t run, Command command) {
-    batch_.push(run, command);
-    if (!lost_[run]) simulations_[run].push(command);
-  }
-
-  /// Makes ticks on both sides. @returns how many runs are not the same to the last bit then.
-  std::size_t differingAfter(Tick ticks) {
-    batch_.run(ticks);
-    std::size_t differing = 0;
-    for (std::size_t run = 0; run < simulations_.size(); ++run) {
-      step(run, ticks);
-      if (!isSame(run)) ++differing;
-    }
-    return differing;
-  }
-
-  std::ptrdiff_t lostCount() const { return std::count(lost_.begin(), lost_.end(), true); }
-
- private:
-  void step(std::size_t run, Tick ticks) {
-    for (Tick i = 0; i < ticks && !lost_[run]; ++i) {
-      try {
-        simulations_[run].step();
-      } catch (const std::runtime_error&) {
-        lost_[run] = true;
-      }
-    }
-  }
-
-  bool isSame(std::size_t run) const {
-    const Simulation& one = simulations_[run];
-    return batch_.divergedAt(run).has_value() == lost_[run] && batch_.hash(run) == one.hash() &&
-           batch_.tickOf(run) == one.tick() && bitsOf(batch_.motion(run)) == bitsOf(one.motion(0));
-  }
-
-  Batch batch_;
-  std::vector<Simulation> simulations_;
-  std::vector<bool> lost_;
-};
+using testing::withEveryKind;
 
 std::vector<Scenario> scenariosOf(RandomCraft& craft, std::size_t count) {
   std::vector<Scenario> scenarios;
@@ -93,22 +45,6 @@ void expectSameBits(RandomCraft craft, InstructionSet set, Tick ticks) {
     }
     ASSERT_EQ(both.differingAfter(1), 0U)
         << craft.name() << ", " << instructionSetName(set) << ", tick " << tick;
-  }
-}
-
-const std::vector<Integrator>& integrators() {
-  static const std::vector<Integrator> all = {Integrator::kEuler, Integrator::kSemiImplicitEuler,
-                                              Integrator::kHeun, Integrator::kRungeKutta4};
-  return all;
-}
-
-/// Each instruction set of this machine, model and integrator.
-template <class Check>
-void withEveryKind(Check check) {
-  for (const InstructionSet set : availableInstructionSets()) {
-    for (const BodyModel model : {BodyModel::kPlanar, BodyModel::kSpatial}) {
-      for (const Integrator integrator : integrators()) check(integrator, model, set);
-    }
   }
 }
 
@@ -345,20 +281,19 @@ TEST(Batch, RefusesByNameWhatItCannotDo) {
             "world: a batch has craft that meet nothing: must not be");
   EXPECT_EQ(refusalAfter([](Scenario& s) { s.vehicles.push_back(s.vehicles.front()); }),
             "vehicles: a run of a batch must have one craft");
-  EXPECT_EQ(refusalAfter([](Scenario& s) { s.vehicles.front().cushion = CushionParameters(); }),
-            "vehicles.craft.cushion: a batch computes no cushion: must not be");
-  EXPECT_EQ(refusalAfter([](Scenario& s) { s.ground = GroundScenario(); }),
-            "ground: a batch computes no ground: must not be");
+  EXPECT_EQ(refusalAfter([](Scenario& s) {
+              s.model = BodyModel::kSpatial;
+              s.vehicles.front().cushion = CushionParameters();
+            }),
+            "vehicles.craft.cushion: must have a ground in a batch of model: spatial");
   EXPECT_EQ(refusalAfter([](Scenario& s) {
               s.ground = GroundScenario{HeightMapScenario(), {}};
             }),
-            "ground.height_map: a batch computes no ground: must not be");
+            "ground.height_map: a batch has planes alone: must not be");
   EXPECT_EQ(refusalAfter([](Scenario& s) { s.vehicles.front().sensors.resize(1); }),
             "vehicles.craft.sensors: a batch reads no sensors: must not be");
   EXPECT_EQ(refusalAfter([](Scenario& s) { s.orientation = OrientationKind::kMatrix; }),
             "orientation: must be quaternion in a batch");
-  EXPECT_EQ(refusalAfter([](Scenario& s) { s.integrator = Integrator::kLie4; }),
-            "integrator: must not be lie4 in a batch");
   EXPECT_EQ(refusalOf({}), "a batch must have a scenario");
   EXPECT_EQ(refusalOf({plainScenario()}, {0, std::nullopt}), "threads = 0: must be 1 or greater");
 }

@@ -9,10 +9,10 @@
 #include "hovercraft_sim/body/steppers.h"
 #include "hovercraft_sim/cushion/body_motion.h"
 #include "hovercraft_sim/cushion/cell_pressure.h"
+#include "hovercraft_sim/cushion/cushion_layout.h"
 #include "hovercraft_sim/cushion/fan_curve.h"
 #include "hovercraft_sim/cushion/ground.h"
 #include "hovercraft_sim/cushion/ground_spring.h"
-#include "hovercraft_sim/cushion/mirror_pairs.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
@@ -131,28 +131,13 @@ class HOVERCRAFT_PUBLIC Cushion {
   /// The greatest that they are described with.
   FanSpeeds fullSpeeds() const;
 
-  std::size_t cellCount() const { return cells_.size(); }
+  std::size_t cellCount() const { return layout_.cells.size(); }
   const CushionParameters& parameters() const { return parameters_; }
+  const CushionLayout& layout() const { return layout_; }
 
  private:
-  /// Hem points of all cells, one column for each number: the loops over them are of independent
-  /// lines, which compilers make several of at once.
-  struct Hem {
-    std::vector<double> x, y, z;    // m, in B
-    std::vector<double> length;     // m
-    std::vector<double> stiffness;  // N/m
-
-    std::size_t size() const { return x.size(); }
-    Vector3 at(std::size_t k) const { return {x[k], y[k], z[k]}; }
-  };
-  struct Cell {
-    Vector3 p_BC;  // m
-    double area = 0.0;
-    std::size_t fan = 0;
-    std::size_t first_point = 0;
-    std::size_t end_point = 0;
-    double hem_length = 0.0;  // m
-  };
+  using Hem = CushionLayout::Hem;
+  using Cell = CushionLayout::Cell;
   using Column = std::array<double, kMaxHemPoints>;  // one number of each hem point
   struct Airs;                                       // of all cells
   class PlaneProbe;
@@ -174,16 +159,7 @@ class HOVERCRAFT_PUBLIC Cushion {
   void write(const Airs& airs, CellReport* reports) const;
 
   CushionParameters parameters_;
-  std::vector<Cell> cells_;  // in the order of the parameters
-  Hem hem_;                  // of the first cell, the second, ...
-  std::vector<MirrorPair> cell_pairs_;
-  std::vector<MirrorPair> point_pairs_;
-  std::vector<Vector3> intakes_B_;  // of each fan, m
-  Vector3 p_BH_;                    // origin of the hull frame, m
-  double reach_ = 0.0;              // m: what rises above a hem point by more is a wall
-  double outflow_factor_ = 0.0;     // C_d sqrt(2/rho)
-  double total_area_ = 0.0;         // m²
-  double total_length_ = 0.0;       // m
+  CushionLayout layout_;
 };
 
 }  // namespace hovercraft

@@ -31,7 +31,12 @@ class HOVERCRAFT_PUBLIC Pads {
 
   double stiffness() const { return stiffness_; }  // N/m, of a vertex
   const GroundSpring& spring() const { return spring_; }
+  /// In B, m: mirrored pairs first, one after the other, then those alone.
   const std::vector<Vector3>& vertices() const { return vertices_B_; }
+  std::size_t pairedCount() const { return paired_; }  // of so many vertices
+  /// The box around the vertices, in B, m.
+  const Vector3& middle() const { return middle_B_; }
+  const Vector3& halfExtent() const { return half_extent_; }
 
  private:
   Wrench wrenchOf(const Vector3& p_B, const BodyMotion& motion, const GroundSample& sample) const;

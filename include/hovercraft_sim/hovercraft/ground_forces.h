@@ -24,6 +24,8 @@ class HOVERCRAFT_PUBLIC GroundForces {
                                         const FanSpeeds& speeds) const;
 
   const std::optional<Cushion>& cushion() const { return cushion_; }
+  const Pads& pads() const { return pads_; }
+  const std::optional<double>& planarLoad() const { return planar_load_; }
   /// @param reports one for each cell. Only with a cushion.
   void report(const BodyMotion& motion, const Environment& environment, const FanSpeeds& speeds,
               CellReport* reports) const;

@@ -1,10 +1,19 @@
 #pragma once
 
 #include "hovercraft_sim/lanes/lane_course.h"
+#include "hovercraft_sim/lanes/lane_lie4.h"
 
 /// Steps of a block for one instruction set.
 
 namespace hovercraft::lanes {
+
+/// Whether a method has stages in the middle of a step.
+template <Method kMethod>
+constexpr bool kIsOfOrder4 = kMethod == Method::kRungeKutta4 || kMethod == Method::kLie4;
+
+/// Whether it has steps in the plane by the numbers that are not 0.
+template <Method kMethod>
+constexpr bool kHasPlanar = !(kMethod == Method::kSemiImplicitEuler || kMethod == Method::kLie4);
 
 template <class Isa, Method kMethod, bool kHasMore>
 [[gnu::noinline]] void advancePack(const StepPlan& plan, const BlockSteps& steps,
@@ -17,12 +26,22 @@ template <class Isa, Method kMethod, bool kHasMore>
   state.read(block.state, first, count);
   MaskOf<Isa> moves = load<Isa>(block.state.moves, first);
   StepLoads<Isa> loads;
+  StepAir<Isa> air;
+  const bool air_changes = StepAir<Isa>::changes(plan.ground, steps.fan_stride);
   for (std::int64_t made = 0; made < steps.count; ++made) {
     const std::size_t blown = static_cast<std::size_t>(made) * steps.wind_stride;
     if (blown > 0) system.wind_W = loadVector<Isa>(steps.wind_W + blown, first);
-    turnActuators(system, block, kMethod == Method::kRungeKutta4, state, loads);
+    turnActuators(system, block, kIsOfOrder4<kMethod>, state, loads);
+    if (kHasMore && plan.ground.has_cushion && (made == 0 || air_changes)) {
+      air.turn(plan.ground, system.more.from(plan.ground.first_row),
+               steps.fan_speeds + static_cast<std::size_t>(made) * steps.fan_stride, loads);
+    }
     PackState<Isa> next;
-    next.motion = steppedMotion<kMethod>(system, state.motion, loads);
+    if constexpr (kMethod == Method::kLie4) {
+      next.motion = lie4Motion(system, state.motion, loads);
+    } else {
+      next.motion = steppedMotion<kMethod>(system, state.motion, loads);
+    }
     const MaskOf<Isa> sound = finish<Isa>(next.motion) & moves;
     for (std::size_t i = 0; i < count; ++i) next.level[i] = loads.end.levels[i];
     if (!Isa::allOf(sound)) {
@@ -57,7 +76,7 @@ template <class Isa, Method kMethod>
       system.wind_y = load<Isa>(steps.wind_W[blown + 1], first);
     }
     for (std::size_t i = 0; i < 3; ++i) turnActuator<Isa>(block, i, first, level[i], loads);
-    system.loadAll(loads, kMethod == Method::kRungeKutta4);
+    system.loadAll(loads, kIsOfOrder4<kMethod>);
     PlanarMotion<Isa> next = steppedMotion<kMethod>(system, y, loads);
     const MaskOf<Isa> sound = finish<Isa>(next, p_z) & moves;
     Number turned[3] = {loads.end.levels[0], loads.end.levels[1], loads.end.levels[2]};
@@ -77,7 +96,7 @@ template <class Isa, Method kMethod>
 template <class Isa, Method kMethod>
 inline void advanceBlock(const StepPlan& plan, const BlockSteps& steps) {
   for (std::size_t first = 0; first < kBlockLanes; first += Isa::kWidth) {
-    if constexpr (kMethod != Method::kSemiImplicitEuler) {
+    if constexpr (kHasPlanar<kMethod>) {
       if (!plan.hasMoreForces() && plan.actuator_count == 3 && isPlanar<Isa>(*steps.block, first)) {
         advancePlanar<Isa, kMethod>(plan, steps, first);
         continue;
@@ -103,6 +122,8 @@ void advance(const StepPlan& plan, const BlockSteps& steps) {
       return advanceBlock<Isa, Method::kHeun>(plan, steps);
     case Method::kRungeKutta4:
       return advanceBlock<Isa, Method::kRungeKutta4>(plan, steps);
+    case Method::kLie4:
+      return advanceBlock<Isa, Method::kLie4>(plan, steps);
   }
 }
 

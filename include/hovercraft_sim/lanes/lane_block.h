@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hovercraft_sim/lanes/ground_plan.h"
+
 /// Many craft side by side: the numbers of a block of them as rows, one column for each craft, and
 /// what is done to all of a block. The module lanes knows no scenario and no Eigen: its sources are
 /// compiled once for each instruction set, and an inline function of another header that got into
@@ -67,7 +69,7 @@ struct Block {
   Row demand[kMostActuators];  // after limits and time-out; N, or levels
 };
 
-enum class Method { kEuler, kSemiImplicitEuler, kHeun, kRungeKutta4 };
+enum class Method { kEuler, kSemiImplicitEuler, kHeun, kRungeKutta4, kLie4 };
 
 /// The forces of actuators besides the engines and their numbers, Row by Row, in this order:
 /// - kFan: place (3), direction (3), 1/V0
@@ -114,17 +116,24 @@ struct StepPlan {
   std::size_t force_count = 0;
   RotorStep rotors[kMostActuators];
   std::size_t rotor_count = 0;
+  GroundPlan ground;
 
-  [[gnu::always_inline]] bool hasMoreForces() const { return force_count > 0 || rotor_count > 0; }
+  [[gnu::always_inline]] bool hasMoreForces() const {
+    return force_count > 0 || rotor_count > 0 || ground.isThere();
+  }
 };
 
 /// Some steps of a block, in which neither a command nor a time-out changes what is demanded.
 struct BlockSteps {
   Block* block = nullptr;
-  const Row* more = nullptr;    // numbers of forces and rotors
+  const Row* more = nullptr;    // numbers of forces, rotors and the ground
   const Row* wind_W = nullptr;  // three rows, m/s
   std::size_t wind_stride = 0;  // rows from one step's wind to the next one's; 0: constant
   std::int64_t count = 0;
+  /// Speeds of the cushion's fans, a row each: at the start, in the middle and at the end of a
+  /// step.
+  const Row* fan_speeds = nullptr;
+  std::size_t fan_stride = 0;  // likewise
 };
 
 /// Makes the steps, each with the operations and in the order of Simulation::step(): the same bits.

@@ -34,13 +34,6 @@ struct PackState {
 };
 
 template <class Isa>
-[[gnu::always_inline]] inline Vector<Isa> chosen(MaskOf<Isa> mask, const Vector<Isa>& yes,
-                                                 const Vector<Isa>& no) {
-  return {choose<Isa>(mask, yes.x, no.x), choose<Isa>(mask, yes.y, no.y),
-          choose<Isa>(mask, yes.z, no.z)};
-}
-
-template <class Isa>
 [[gnu::always_inline]] inline PlanarMotion<Isa> chosen(MaskOf<Isa> mask,
                                                        const PlanarMotion<Isa>& yes,
                                                        const PlanarMotion<Isa>& no) {
@@ -96,6 +89,34 @@ template <class Isa, bool kHasMore>
   if (has_middle) loads.middle.engines_B = system.enginesWrench(loads.middle.levels);
   loads.end.engines_B = system.enginesWrench(loads.end.levels);
 }
+
+/// The air of a cushion over a step.
+template <class Isa>
+struct StepAir {
+  StageAir<Isa> start;
+  StageAir<Isa> middle;
+  StageAir<Isa> end;
+
+  /// Whether fans turn otherwise in the next step.
+  [[gnu::always_inline]] static bool changes(const GroundPlan& plan, std::size_t fan_stride) {
+    bool any = fan_stride > 0;
+    for (std::size_t i = 0; i < plan.fan_count; ++i) {
+      any = any || plan.fans[i].actuator != LiftFanStep::kDescribed;
+    }
+    return any;
+  }
+
+  /// @param numbers of the plan. @param speeds as they are described, of the step.
+  [[gnu::always_inline]] void turn(const GroundPlan& plan, const Numbers& numbers,
+                                   const Row* speeds, StepLoads<Isa>& loads) {
+    turnFans<Isa>(plan, numbers, speeds, loads.start.levels, start);
+    turnFans<Isa>(plan, numbers, speeds + plan.fan_count, loads.middle.levels, middle);
+    turnFans<Isa>(plan, numbers, speeds + 2 * plan.fan_count, loads.end.levels, end);
+    loads.start.air = &start;
+    loads.middle.air = &middle;
+    loads.end.air = &end;
+  }
+};
 
 template <class Isa>
 [[gnu::always_inline]] inline NumberOf<Isa> settled(NumberOf<Isa> momentum) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hovercraft_sim/lanes/lane_forces.h"
+#include "hovercraft_sim/lanes/lane_ground.h"
 
 /// A step of a pack of craft by each method: the operations of body/steppers.h and
 /// HovercraftModel::derivative(), in their order.
@@ -38,10 +39,11 @@ template <class Isa>
 struct StageLoad {
   NumberOf<Isa> levels[kMostActuators];  // of each actuator
   Wrench<Isa> engines_B;
+  const StageAir<Isa>* air;  // of the cushion, if there is one
 };
 
 /// The system that a stepper integrates: some columns of a block.
-/// @tparam kHasMore whether there are forces besides engines, drag and weight, or rotors.
+/// @tparam kHasMore whether there are forces besides engines, drag and weight, rotors or a ground.
 template <class Isa, bool kHasMore>
 struct PackSystem {
   using Number = NumberOf<Isa>;
@@ -106,6 +108,11 @@ struct PackSystem {
       if (plan.force_count > 0) {
         wrench_B = wrench_B + forcesWrench<Isa>(plan, more, {at.levels, u_B, w_WB_B});
       }
+      if (plan.ground.isThere()) {
+        addGroundWrench<Isa>(plan.ground, more.from(plan.ground.first_row),
+                             {R_WB, y.p, transposeTimes(R_WB, v_WB), w_WB_B, u_B}, at.air,
+                             wrench_B);
+      }
     }
     const Vector<Isa> force_W =
         times(R_WB, wrench_B.force) + loadVector<Isa>(constants.weight_W, first);
@@ -118,7 +125,7 @@ struct PackSystem {
 template <class Isa>
 struct StepLoads {
   StageLoad<Isa> start;
-  StageLoad<Isa> middle;  // of RK4 alone
+  StageLoad<Isa> middle;  // of methods of order 4
   StageLoad<Isa> end;
 };
 

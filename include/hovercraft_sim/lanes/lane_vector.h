@@ -130,6 +130,13 @@ template <class Isa>
 }
 
 template <class Isa>
+[[gnu::always_inline]] inline Vector<Isa> chosen(MaskOf<Isa> mask, const Vector<Isa>& yes,
+                                                 const Vector<Isa>& no) {
+  return {choose<Isa>(mask, yes.x, no.x), choose<Isa>(mask, yes.y, no.y),
+          choose<Isa>(mask, yes.z, no.z)};
+}
+
+template <class Isa>
 [[gnu::always_inline]] inline NumberOf<Isa> squaredNorm(const Quaternion<Isa>& q) {
   return q.s * q.s + dot(q.v, q.v);
 }

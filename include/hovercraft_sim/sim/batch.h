@@ -2,10 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "hovercraft_sim/hovercraft/gusts.h"
+#include "hovercraft_sim/hovercraft/hovercraft_model.h"
 #include "hovercraft_sim/lanes/instruction_set.h"
 #include "hovercraft_sim/lanes/lane_block.h"
 #include "hovercraft_sim/math/export.h"
@@ -28,9 +30,10 @@ struct BatchOptions {
 /// side, one in each lane of wide registers, many ticks of one block of eight before the next
 /// block: fewer commands in between are faster. run() allocates nothing for a tick.
 ///
-/// A scenario must have one craft, orientation by quaternion, and no world, ground, cushion or
-/// sensors. All runs of a batch have one step_size, integrator and model, the same actuators and
-/// kinds of forces and rotors, and gusts or none; any number may be another one.
+/// A scenario must have one craft, orientation by quaternion, and no world, height map or sensors.
+/// All runs of a batch have one step_size, integrator and model, the same actuators and kinds of
+/// forces and rotors, cells, fans and hem points of cushions, vertices of hulls on a ground, and
+/// gusts or none; any number may be another one.
 class HOVERCRAFT_PUBLIC Batch {
  public:
   /// Some runs of one scenario. @throws std::invalid_argument that names the key of what a batch
@@ -79,14 +82,18 @@ class HOVERCRAFT_PUBLIC Batch {
     Vector3 mean_W;
   };
 
-  struct BlockAir;
+  struct Around;
 
+  HovercraftModel modelOfRun(const Scenario& scenario) const;
   void growBlocks();
   Tick takeEvents(std::size_t run, Tick tick);
   void advanceBlock(std::size_t block, Tick end);
   Tick nextEvent(std::size_t block, Tick tick, Tick end);
-  void blow(std::size_t block, Tick tick, Tick count, BlockAir& around);
-  void calm(std::size_t block, Tick begin, const BlockAir& around);
+  void blow(std::size_t block, Tick tick, Tick count, Around& around);
+  void calm(std::size_t block, Tick begin, const Around& around);
+  void addFans(const HovercraftModel& model);
+  void turnFans(std::size_t block, Tick tick, Tick count, Around& around) const;
+  std::size_t fanRows() const { return 3 * kind_.plan.ground.fan_count; }
   void noteLost(std::size_t block, Tick begin);
   const lanes::Row* moreOf(std::size_t block) const { return more_.data() + block * kind_.rows; }
   std::size_t lanesOf(std::size_t block) const;
@@ -99,8 +106,11 @@ class HOVERCRAFT_PUBLIC Batch {
   lanes::Advance advance_;
   Tick tick_ = 0;
   std::vector<lanes::Block> blocks_;
-  std::vector<lanes::Row> wind_W_;  // three of each block: the mean
-  std::vector<lanes::Row> more_;    // of each block: numbers of forces and rotors
+  std::vector<lanes::Row> wind_W_;      // three of each block: the mean
+  std::vector<lanes::Row> more_;        // of each block: numbers of forces, rotors and the ground
+  std::vector<lanes::Row> fan_speeds_;  // of each block, of a cushion: over the first step
+  std::vector<std::shared_ptr<const GroundForces>> grounds_;  // of each run with a cushion
+  bool fans_follow_time_ = false;                             // of some of them
   std::vector<Mobility> mobilities_;
   std::vector<LaneActuator> actuators_;  // of each run, by id
   std::vector<CommandLog> logs_;

@@ -21,7 +21,7 @@ struct BatchKind {
   bool has_gusts = false;
   std::vector<std::string> actuator_names;  // besides the engines
   lanes::StepPlan plan;
-  std::size_t rows = 0;  // numbers of its forces and rotors
+  std::size_t rows = 0;  // numbers of its forces, rotors and ground
 };
 
 /// What a run knows of an actuator between its events.
@@ -31,8 +31,12 @@ struct LaneActuator {
   Tick command_tick = EngineState::kNever;
 };
 
-/// @throws std::invalid_argument that names the key of what a batch cannot do.
-BatchKind batchKindOf(const Scenario& scenario);
+/// The model of the craft of a scenario. @throws std::invalid_argument that names the key of what a
+/// batch cannot do.
+HovercraftModel batchableModelOf(const Scenario& scenario);
+
+/// @param model of the scenario.
+BatchKind batchKindOf(const Scenario& scenario, const HovercraftModel& model);
 
 /// @throws std::invalid_argument that begins with the name and names the key in which a run differs
 /// where it must not.

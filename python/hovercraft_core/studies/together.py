@@ -1,4 +1,4 @@
-"""Flies many runs of a plan side by side: those whose commands are known before, of one craft that meets nothing."""
+"""Flies many runs of a plan side by side: those whose commands are known before, of one craft that meets nothing but a plane."""
 import numpy as np
 
 from .. import _arrays, _core
@@ -27,7 +27,7 @@ class Together:
             return
         try:
             _core.Batch([flyer.base], None, 1, "")
-        except ValueError:  # a world, a cushion, ...: Simulation flies it
+        except ValueError:  # a world, a height map, ...: Simulation flies it
             return
         self.crafts = Scenario(flyer.base)._crafts()
         row_bytes = _arrays.STATE.itemsize + len(self.crafts[0].all_names) * _arrays.ACTUATOR.itemsize
