@@ -14,8 +14,7 @@ struct OneOnAnother {
     upper.inverse_mass = Vector3::Constant(1.0);
     upper.inverse_inertia = Matrix3::Identity();
     upper.twist.v_WB = Vector3(0.3, 0.0, -2.0);
-    solver.add(upper);
-    demand.b = 1;
+    demand.b = solver.add(upper);
     demand.nhat_AB_W = Vector3(0.0, 0.0, 1.0);
   }
   Vector3 solved() {
@@ -113,13 +112,17 @@ struct Row {
   ContactSolver solver;
 };
 
-// One sweep in the order of the points. Two bodies, 1 m/s of the first: its joint to the wall takes
-// 1 N s and stops it; at the others nothing is left to do.
+// One sweep in the order of the points. Two bodies, 1 m/s of the second: the joint between them
+// gives each half of it, the one to the wall stops the second; the first is left with its half.
 TEST(ContactSolver, MakesNoMoreSweepsThanItMay) {
   Row row(2);
+  row.solver.bodies()[1].twist.v_WB.x() = 0.0;
+  row.solver.bodies()[2].twist.v_WB.x() = 1.0;
   EXPECT_EQ(row.solver.solve({1, 1, 0.0}), 1);
-  EXPECT_EQ(row.solver.impulse(0), Vector3(-1.0, 0.0, 0.0));
-  EXPECT_EQ(row.solver.bodies()[1].twist.v_WB.x(), 0.0);
+  EXPECT_EQ(row.solver.impulse(1), Vector3(-0.5, 0.0, 0.0));
+  EXPECT_EQ(row.solver.impulse(2), Vector3(0.5, 0.0, 0.0));
+  EXPECT_EQ(row.solver.bodies()[1].twist.v_WB.x(), 0.5);
+  EXPECT_EQ(row.solver.bodies()[2].twist.v_WB.x(), 0.0);
 }
 
 // A change of 1 m/s is within the tolerance, so that the least number of sweeps is all it makes.
@@ -140,6 +143,40 @@ TEST(ContactSolver, GoesOnBetweenTheSweeps) {
   }
   EXPECT_LT(row.solver.solve({2000, 1, 1e-12}), 400);
   for (const ContactBody& body : row.solver.bodies()) EXPECT_LT(norm(body.twist.v_WB), 1e-10);
+}
+
+// The tangents go by the slip that the normal of the same sweep leaves: of a point off the centre
+// nothing slips after one.
+TEST(ContactSolver, AfterASweepAPointThatHoldsDoesNotSlip) {
+  OneOnAnother pair;
+  pair.demand.p_WC = Vector3(0.3, -0.4, 0.0);
+  pair.demand.bilateral = true;
+  pair.solver.add(pair.demand);
+  EXPECT_EQ(pair.solver.solve({1, 1, 0.0}), 1);
+  const Vector3 v = pair.solver.velocityAt(0);
+  EXPECT_NEAR(v.x(), 0.0, 1e-15);
+  EXPECT_NEAR(v.y(), 0.0, 1e-15);
+}
+
+// B is a table that nothing moves and that turns: 1 m beside its centre it goes with w x r =
+// (1, 1, 1) x (-1, 0, 0) = (0, -1, 1), and what sticks to it there goes with it.
+TEST(ContactSolver, ATableThatTurnsTakesAlongWhatSticksToIt) {
+  ContactSolver solver;
+  ContactBody body;
+  body.p_WB = Vector3(-1.0, 0.0, 0.1);
+  body.inverse_mass = Vector3::Constant(1.0);
+  ContactBody table;
+  table.twist.w_WB = Vector3(1.0, 1.0, 1.0);
+  ContactDemand demand;
+  demand.a = solver.add(body);
+  demand.b = solver.add(table);
+  demand.nhat_AB_W = Vector3(0.0, 0.0, -1.0);
+  demand.p_WC = Vector3(-1.0, 0.0, 0.0);
+  demand.friction = 10.0;
+  solver.add(demand);
+  solver.solve({100, 1, 1e-15});
+  EXPECT_LT(norm(solver.bodies()[0].twist.v_WB - Vector3(0.0, -1.0, 1.0)), 1e-14);
+  EXPECT_EQ(solver.bodies()[1].twist.w_WB, Vector3(1.0, 1.0, 1.0));
 }
 
 }  // namespace

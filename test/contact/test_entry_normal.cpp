@@ -50,6 +50,27 @@ TEST(EntryNormal, IsOfTheSideThatTheMotionReachesLast) {
   }
 }
 
+// The same along each of the twelve edges, somewhere in its middle: the side whose gap the motion
+// straight at the other one does not close.
+TEST(EntryNormal, IsFoundAtEveryEdge) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double one : {-1.0, 1.0}) {
+      for (const double two : {-1.0, 1.0}) {
+        const Vector3 u = one * Vector3::Unit(axis);
+        const Vector3 v = two * Vector3::Unit((axis + 1) % 3);
+        const Vector3 along = 0.25 * Vector3::Unit((axis + 2) % 3);
+        const Vector3 beside = (1.0 + 0.3e-6) * u + (1.0 + 0.4e-6) * v + along;
+        const ContactManifold over = turned(beside, -u);
+        EXPECT_LT(norm(over.nhat_AB_W - v), 1e-12) << beside.transpose();
+        EXPECT_NEAR(over.points[0].gap, 0.4e-6, 1e-15);
+        const ContactManifold past = turned(beside, -v);
+        EXPECT_LT(norm(past.nhat_AB_W - u), 1e-12) << beside.transpose();
+        EXPECT_NEAR(past.points[0].gap, 0.3e-6, 1e-15);
+      }
+    }
+  }
+}
+
 // Where nothing closes there is no side to enter: the line of the closest points stays.
 TEST(EntryNormal, StaysWhereNothingCloses) {
   const Vector3 beside(1.0 + 0.3e-6, 0.0, 1.0 + 0.4e-6);
