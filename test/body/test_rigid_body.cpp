@@ -179,6 +179,7 @@ TYPED_TEST(RigidBody, PlanarStateKeepsOnlyMotionInThePlane) {
   const TypeParam yawed = testing::orientationOf<TypeParam>(Quaternion{0.8, {0.0, 0.0, 0.6}});
   const auto state = mobility.stateOfMotion({1.0, 2.0, 3.0}, yawed, {{4.0, 5.0, 6.0}, {7, 8, 9}});
   EXPECT_EQ(state.momentum_W, Vector3(8.0, 10.0, 0.0));
+  EXPECT_EQ(mobility.twist(state).v_WB, Vector3(4.0, 5.0, 0.0));
   EXPECT_EQ(state.angular_momentum_W.x(), 0.0);
   EXPECT_EQ(state.angular_momentum_W.y(), 0.0);
 }

@@ -178,6 +178,11 @@ TEST(Manifold, TheClosestPointsAreAmongThePoints) {
       least = std::min(least, manifold.points[static_cast<std::size_t>(i)].gap);
     }
     EXPECT_LT(least, 1.3 * kGap) << "leans towards " << k << " of 48";
+    for (const ContactPoint& point : pointsOf(manifold)) {
+      EXPECT_GT(point.gap, 0.9 * kGap);
+      EXPECT_NEAR(point.p_WC.head<2>().norm(), 0.3, 1e-3);  // at the rim
+      EXPECT_NEAR(point.p_WC.z(), 0.5, 2e-6);
+    }
   }
 }
 
@@ -283,6 +288,60 @@ TEST(Manifold, SidesThatNearlyLieAlongEachOtherMakeNoCorner) {
   for (const ContactPoint& point : pointsOf(manifold)) {
     EXPECT_NEAR(std::abs(point.p_WC.x()), 0.5, 1e-6);
     EXPECT_NEAR(std::abs(point.p_WC.y()), 0.5, 1e-6);
+  }
+}
+
+/// A cube with a narrower box on it that leans by 1e-4 rad and hangs over its side, so that an edge
+/// of each is closest, along a normal that is neither face's.
+struct LeaningBox {
+  LeaningBox() {
+    X_WB = poseOf(Vector3(-2e-4, 1e-4, 0.3), Vector3(0.6, 0.1, 1.01));
+    for (int i = 0; i < 4; ++i) X_WB.p_AB.z() -= closest(false).distance - kGap;
+  }
+  ClosestFeatures closest(bool swapped) const {
+    FeaturePair pair;
+    return swapped ? closestFeatures(box, X_WB, cube, Pose(), pair)
+                   : closestFeatures(cube, Pose(), box, X_WB, pair);
+  }
+  ContactManifold manifold(bool swapped, double band) const {
+    return swapped ? contactManifold(box, X_WB, cube, Pose(), closest(true), band)
+                   : contactManifold(cube, Pose(), box, X_WB, closest(false), band);
+  }
+  ConvexPolyhedron cube = boxPolyhedron(Vector3::Ones());
+  ConvexPolyhedron box = boxPolyhedron(Vector3(1.0, 0.4, 1.0));
+  Pose X_WB;
+};
+
+// The whole common area counts: 0.5 m lean by 1e-4 rad, up to 1e-4 m of gap.
+TEST(Manifold, FacesThatLeanByLittleTouchInTheirCommonArea) {
+  const LeaningBox leaning;
+  for (const bool swapped : {false, true}) {
+    const ContactManifold manifold = leaning.manifold(swapped, 1e-3);
+    EXPECT_TRUE(manifold.of_face);
+    EXPECT_NE(manifold.nhat_AB_W, leaning.closest(swapped).nhat_AB_W);
+    EXPECT_GE(manifold.count, 4);
+    double least = 1.0;
+    for (const ContactPoint& point : pointsOf(manifold)) {
+      const Vector3 p_B = inverseTransform(leaning.X_WB, point.p_WC);
+      EXPECT_LE(std::max(std::abs(point.p_WC.x()), std::abs(point.p_WC.y())), 0.5 + 1e-6);
+      EXPECT_LE(std::max(std::abs(p_B.x()), 2.5 * std::abs(p_B.y())), 0.5 + 1e-6);
+      EXPECT_NEAR(point.p_WC.z(), 0.5, 2e-4);
+      EXPECT_GT(point.gap, 0.0);
+      least = std::min(least, point.gap);
+    }
+    EXPECT_NEAR(least, kGap, 1e-8);
+  }
+}
+
+TEST(Manifold, FacesThatLeanAndAreBeyondTheBandTouchInTheClosestPoints) {
+  const LeaningBox leaning;
+  for (const bool swapped : {false, true}) {
+    const ContactManifold manifold = leaning.manifold(swapped, 0.5 * kGap);
+    const ClosestFeatures closest = leaning.closest(swapped);
+    EXPECT_FALSE(manifold.of_face);
+    EXPECT_EQ(manifold.nhat_AB_W, closest.nhat_AB_W);
+    ASSERT_EQ(manifold.count, 1);
+    EXPECT_EQ(manifold.points[0].gap, closest.distance);
   }
 }
 
