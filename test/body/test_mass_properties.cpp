@@ -134,10 +134,11 @@ TEST(MassProperties, NumbersThatAreNotPositiveAreNamed) {
               boxMassProperties(-1.0, {1.0, 1.0, 1.0});
             }),
             "mass = -1 kg: must be positive and finite");
-  EXPECT_EQ(messageOf([&] {
-              boxMassProperties(1.0, {1.0, 0.0, 1.0});
-            }),
-            "size = 0 m: must be positive and finite");
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3 flat = Vector3::Ones() - Vector3::Unit(axis);
+    EXPECT_EQ(messageOf([&] { boxMassProperties(1.0, flat); }),
+              "size = 0 m: must be positive and finite");
+  }
   EXPECT_EQ(messageOf([&] { sphereMassProperties(1.0, nan); }),
             "radius = nan m: must be positive and finite");
   EXPECT_EQ(messageOf([&] { sphereMassProperties(0.0, 1.0); }),
@@ -301,6 +302,9 @@ TEST(CheckInertia, AnEntryThatIsNotFiniteIsNamed) {
   tensor = diagonal(1.0, std::numeric_limits<double>::infinity(), 1.0);
   EXPECT_EQ(messageOf([&] { checkInertia(tensor, "hull"); }),
             "hull: iyy = inf kg m^2: must be finite");
+  tensor = diagonal(1.0, 1.0, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(messageOf([&] { checkInertia(tensor, "hull"); }),
+            "hull: izz = -inf kg m^2: must be finite");
 }
 
 TEST(CheckInertia, ATensorThatIsNotSymmetricIsRefused) {
@@ -308,6 +312,17 @@ TEST(CheckInertia, ATensorThatIsNotSymmetricIsRefused) {
   tensor(0, 1) = 0.25;
   EXPECT_EQ(messageOf([&] { checkInertia(tensor, "inertia"); }),
             "inertia: must be symmetric, but ixy = 0.25 kg m^2 and iyx = 0 kg m^2");
+}
+
+// Six digits of the largest entry: 1e-5 of 1e6 kg m^2 is nothing, of 1e-3 kg m^2 all there is.
+TEST(CheckInertia, SymmetryIsThatOfSixDigitsWhateverTheSize) {
+  for (const double size : {1e-3, 1.0, 1e6}) {
+    Matrix3 tensor = diagonal(size, size, size);
+    tensor(0, 1) = 0.9e-5 * size;
+    EXPECT_EQ(messageOf([&] { checkInertia(tensor, "inertia"); }), "no error") << size;
+    tensor(0, 1) = 1.1e-5 * size;
+    EXPECT_NE(messageOf([&] { checkInertia(tensor, "inertia"); }), "no error") << size;
+  }
 }
 
 TEST(CheckInertia, AMomentThatIsNotPositiveIsRefused) {

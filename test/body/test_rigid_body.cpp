@@ -1,3 +1,4 @@
+#include <cmath>
 #include <random>
 #include <stdexcept>
 
@@ -148,6 +149,29 @@ TYPED_TEST(RigidBody, KineticEnergyIsThatOfTranslationAndRotation) {
   EXPECT_NEAR(kineticEnergy(state, mobility), 10.0, 10.0 * kRounding);
 }
 
+// A body with 1, 2, 3 kg m² whose y axis lies along W's z after a quarter turn about x. Its rotor
+// has 0.5 N m s about y. All together does not turn (L = 0): the body turns the other way with
+// 0.5/2 rad/s about y, which is W's z, and has ½ 2 · 0.25² J. At rest all of L is the rotor's.
+TYPED_TEST(RigidBody, ARotorTurnsItsBodyTheOtherWay) {
+  const Mobility mobility = Mobility::spatial(3.0, Vector3(1.0, 2.0, 3.0).asDiagonal());
+  const double half = std::sqrt(0.5);
+  const TypeParam orientation =
+      testing::orientationOf<TypeParam>(Quaternion{half, {half, 0.0, 0.0}});
+  const Vector3 rotors_B(0.0, 0.5, 0.0);
+  const Vector3 zero = Vector3::Zero();
+  RigidBodyState<TypeParam> state;
+  state.orientation = orientation;
+  EXPECT_LT(norm(mobility.twist(state, rotors_B).w_WB - Vector3(0.0, 0.0, -0.25)), kRounding);
+  EXPECT_EQ(mobility.angularVelocityInBody(zero, rotationMatrix(orientation), rotors_B),
+            Vector3(0.0, -0.25, 0.0));
+  EXPECT_NEAR(kineticEnergy(state, mobility, rotors_B), 0.0625, kRounding);
+  const auto resting = mobility.stateOfMotion(zero, orientation, {zero, zero}, rotors_B);
+  EXPECT_LT(norm(resting.angular_momentum_W - Vector3(0.0, 0.0, 0.5)), kRounding);
+  EXPECT_NEAR(kineticEnergy(resting, mobility, rotors_B), 0.0, kRounding);
+  const auto turning = mobility.stateOfMotion(zero, orientation, {zero, {0.0, 0.0, 2.0}}, rotors_B);
+  EXPECT_LT(norm(turning.angular_momentum_W - Vector3(0.0, 0.0, 4.5)), 4.0 * kRounding);
+}
+
 TYPED_TEST(RigidBody, PlanarStateKeepsOnlyMotionInThePlane) {
   RandomBodies random;
   const Matrix3 inertia = random.inertia();
@@ -155,6 +179,7 @@ TYPED_TEST(RigidBody, PlanarStateKeepsOnlyMotionInThePlane) {
   const TypeParam yawed = testing::orientationOf<TypeParam>(Quaternion{0.8, {0.0, 0.0, 0.6}});
   const auto state = mobility.stateOfMotion({1.0, 2.0, 3.0}, yawed, {{4.0, 5.0, 6.0}, {7, 8, 9}});
   EXPECT_EQ(state.momentum_W, Vector3(8.0, 10.0, 0.0));
+  EXPECT_EQ(mobility.twist(state).v_WB, Vector3(4.0, 5.0, 0.0));
   EXPECT_EQ(state.angular_momentum_W.x(), 0.0);
   EXPECT_EQ(state.angular_momentum_W.y(), 0.0);
 }

@@ -298,6 +298,7 @@ TEST(Impact, WorkedExampleOfTheDocument) {
   // 9 J before; 1.44 + 4.86 = 6.3 J after: ½ (1 - 0.25) 3² / 1.25 = 2.7 J lost
   EXPECT_NEAR(energyOf(plate, solver.bodies()[1].twist), 6.3, 1e-13);
   EXPECT_TRUE(points[0].bounced);
+  EXPECT_EQ(points[0].approach, 3.0);
 }
 
 TEST(Impact, AFaceBouncesOffTheFloorWithoutTurning) {
@@ -368,6 +369,29 @@ TEST(Impact, ASlowApproachDoesNotBounce) {
     ImpactSolver().resolve(solver, points);
     EXPECT_NEAR(solver.bodies()[1].twist.v_WB.z(), speed < 0.01 ? 0.0 : 0.5 * speed, 1e-16);
   }
+}
+
+// Two balls of 1 kg on each other, the lower one standing on the floor, at rest; the upper one
+// comes down with 0.5 m/s. Newton, e = 0: all stand. The floor's point did not approach itself:
+// what its impulse of 0.5 N s stops there of 1 kg is what it is told as.
+TEST(Impact, APointTellsTheFastestApproachThatItStopped) {
+  const Masses ball{1.0, Matrix3::Identity()};
+  ContactSolver solver;
+  solver.add(fixedBody());
+  solver.add(bodyOf(ball, Vector3(0.0, 0.0, 0.1), {Vector3::Zero(), Vector3::Zero()}));
+  solver.add(bodyOf(ball, Vector3(0.0, 0.0, 0.3), {Vector3(0.0, 0.0, -0.5), Vector3::Zero()}));
+  std::vector<ImpactPoint> points = {
+      pointOf(Vector3(0.0, 0.0, 1.0), Vector3(0.0, 0.0, 0.0), 0.0, 0.0),
+      pointOf(Vector3(0.0, 0.0, 1.0), Vector3(0.0, 0.0, 0.2), 0.0, 0.0)};
+  points[1].a = 1;
+  points[1].b = 2;
+  points.push_back(pointOf(Vector3(1.0, 0.0, 0.0), Vector3(0.0, 0.0, 0.0), 0.0, 0.0));
+  ImpactSolver().resolve(solver, points);
+  EXPECT_NEAR(points[0].impulse.z(), 0.5, 1e-11);
+  EXPECT_NEAR(points[1].impulse.z(), 0.5, 1e-11);
+  EXPECT_EQ(points[1].approach, 0.5);
+  EXPECT_EQ(points[2].approach, 0.0);  // nothing moves there
+  for (const ImpactPoint& point : points) EXPECT_FALSE(point.bounced);
 }
 
 TEST(Material, OfAPairIsSymmetricAndTakesTheLesserRestitution) {

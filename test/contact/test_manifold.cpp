@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -22,6 +23,10 @@ ContactManifold manifoldOf(const ConvexPolyhedron& A, const Pose& X_WA, const Co
 
 Pose poseOf(const Vector3& rpy, const Vector3& p) {
   return {rotationFromRpy(rpy), p};
+}
+
+std::vector<ContactPoint> pointsOf(const ContactManifold& manifold) {
+  return {manifold.points.begin(), manifold.points.begin() + manifold.count};
 }
 
 const ConvexPolyhedron& floorBox() {
@@ -173,6 +178,11 @@ TEST(Manifold, TheClosestPointsAreAmongThePoints) {
       least = std::min(least, manifold.points[static_cast<std::size_t>(i)].gap);
     }
     EXPECT_LT(least, 1.3 * kGap) << "leans towards " << k << " of 48";
+    for (const ContactPoint& point : pointsOf(manifold)) {
+      EXPECT_GT(point.gap, 0.9 * kGap);
+      EXPECT_NEAR(point.p_WC.head<2>().norm(), 0.3, 1e-3);  // at the rim
+      EXPECT_NEAR(point.p_WC.z(), 0.5, 2e-6);
+    }
   }
 }
 
@@ -204,6 +214,135 @@ TEST(Manifold, ParallelEdgesMeetInTheMiddleOfTheGap) {
   }
   EXPECT_NEAR(std::min(manifold.points[0].p_WC.x(), manifold.points[1].p_WC.x()), -0.5, 1e-12);
   EXPECT_NEAR(std::max(manifold.points[0].p_WC.x(), manifold.points[1].p_WC.x()), 1.0, 1e-12);
+}
+
+// Whichever of its six faces a cube is met at: the four corners of the common face.
+TEST(Manifold, EachFaceOfACubeTouchesInItsFourCorners) {
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3::Ones());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Vector3 normal = sign * Vector3::Unit(axis);
+      const Vector3 shift = 0.25 * Vector3::Unit((axis + 1) % 3);
+      const ContactManifold manifold =
+          manifoldOf(cube, Pose(), cube, {Matrix3::Identity(), (1.0 + kGap) * normal + shift});
+      ASSERT_EQ(manifold.count, 4) << normal.transpose();
+      EXPECT_EQ(manifold.nhat_AB_W, normal);
+      for (const ContactPoint& point : pointsOf(manifold)) {
+        EXPECT_NEAR(dot(normal, point.p_WC), 0.5 + 0.5 * kGap, 1e-14);
+        EXPECT_NEAR(std::abs(point.p_WC[(axis + 1) % 3] - 0.125), 0.375, 1e-14);
+        EXPECT_NEAR(std::abs(point.p_WC[(axis + 2) % 3]), 0.5, 1e-14);
+      }
+    }
+  }
+}
+
+// Gaps and band of 2^-20 m to the last bit.
+TEST(Manifold, ACornerAtTheBandIsStillAPoint) {
+  const double gap = 0x1p-20;
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3::Ones());
+  const Pose above = poseOf(Vector3::Zero(), Vector3(0.25, 0.25, 1.0 + gap));
+  FeaturePair pair;
+  const ClosestFeatures closest = closestFeatures(floorBox(), Pose(), cube, above, pair);
+  EXPECT_EQ(contactManifold(floorBox(), Pose(), cube, above, closest, gap).count, 4);
+  const double less = std::nextafter(gap, 0.0);
+  EXPECT_EQ(contactManifold(floorBox(), Pose(), cube, above, closest, less).count, 1);
+}
+
+// The common area of two squares of which one is turned by 45 degrees has eight corners, in pairs
+// of which any direction prefers one.
+TEST(Manifold, ExactlyEightCornersAllStay) {
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3::Ones());
+  const ConvexPolyhedron wide = boxPolyhedron(Vector3(1.3, 1.3, 1.0));
+  const Pose above = poseOf(Vector3(0.0, 0.0, 0.25 * kPi), Vector3(0.0, 0.0, 1.0 + kGap));
+  const ContactManifold manifold = manifoldOf(cube, Pose(), wide, above);
+  ASSERT_EQ(manifold.count, 8);
+  const double cut = 1.3 * std::sqrt(0.5) - 0.5;  // |x| + |y| <= 1.3/sqrt(2)
+  for (const ContactPoint& point : pointsOf(manifold)) {
+    EXPECT_NEAR(std::max(std::abs(point.p_WC.x()), std::abs(point.p_WC.y())), 0.5, 1e-14);
+    EXPECT_NEAR(std::min(std::abs(point.p_WC.x()), std::abs(point.p_WC.y())), cut, 1e-14);
+  }
+}
+
+// A round can on a narrow bar: ten corners in two bunches, of which several directions choose the
+// same.
+TEST(Manifold, NoPointComesTwice) {
+  const ConvexPolyhedron can = cylinderPolyhedron(0.3, 0.4, 64);
+  const ConvexPolyhedron bar = boxPolyhedron(Vector3(10.0, 0.1, 1.0));
+  const Pose above = poseOf(Vector3::Zero(), Vector3(0.0, 0.0, 0.7 + kGap));
+  const ContactManifold manifold = manifoldOf(bar, Pose(), can, above);
+  EXPECT_GE(manifold.count, 4);
+  const std::vector<ContactPoint> points = pointsOf(manifold);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GT(norm(points[i].p_WC - points[j].p_WC), 1e-3) << i << " and " << j;
+    }
+  }
+}
+
+// Two cubes turned by 1e-7 rad against each other: their sides cross in the middle, at no corner.
+TEST(Manifold, SidesThatNearlyLieAlongEachOtherMakeNoCorner) {
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3::Ones());
+  const Pose above = poseOf(Vector3(0.0, 0.0, 1e-7), Vector3(0.0, 0.0, 1.0 + kGap));
+  const ContactManifold manifold = manifoldOf(cube, Pose(), cube, above);
+  ASSERT_EQ(manifold.count, 4);
+  for (const ContactPoint& point : pointsOf(manifold)) {
+    EXPECT_NEAR(std::abs(point.p_WC.x()), 0.5, 1e-6);
+    EXPECT_NEAR(std::abs(point.p_WC.y()), 0.5, 1e-6);
+  }
+}
+
+/// A cube with a narrower box on it that leans by 1e-4 rad and hangs over its side, so that an edge
+/// of each is closest, along a normal that is neither face's.
+struct LeaningBox {
+  LeaningBox() {
+    X_WB = poseOf(Vector3(-2e-4, 1e-4, 0.3), Vector3(0.6, 0.1, 1.01));
+    for (int i = 0; i < 4; ++i) X_WB.p_AB.z() -= closest(false).distance - kGap;
+  }
+  ClosestFeatures closest(bool swapped) const {
+    FeaturePair pair;
+    return swapped ? closestFeatures(box, X_WB, cube, Pose(), pair)
+                   : closestFeatures(cube, Pose(), box, X_WB, pair);
+  }
+  ContactManifold manifold(bool swapped, double band) const {
+    return swapped ? contactManifold(box, X_WB, cube, Pose(), closest(true), band)
+                   : contactManifold(cube, Pose(), box, X_WB, closest(false), band);
+  }
+  ConvexPolyhedron cube = boxPolyhedron(Vector3::Ones());
+  ConvexPolyhedron box = boxPolyhedron(Vector3(1.0, 0.4, 1.0));
+  Pose X_WB;
+};
+
+// The whole common area counts: 0.5 m lean by 1e-4 rad, up to 1e-4 m of gap.
+TEST(Manifold, FacesThatLeanByLittleTouchInTheirCommonArea) {
+  const LeaningBox leaning;
+  for (const bool swapped : {false, true}) {
+    const ContactManifold manifold = leaning.manifold(swapped, 1e-3);
+    EXPECT_TRUE(manifold.of_face);
+    EXPECT_NE(manifold.nhat_AB_W, leaning.closest(swapped).nhat_AB_W);
+    EXPECT_GE(manifold.count, 4);
+    double least = 1.0;
+    for (const ContactPoint& point : pointsOf(manifold)) {
+      const Vector3 p_B = inverseTransform(leaning.X_WB, point.p_WC);
+      EXPECT_LE(std::max(std::abs(point.p_WC.x()), std::abs(point.p_WC.y())), 0.5 + 1e-6);
+      EXPECT_LE(std::max(std::abs(p_B.x()), 2.5 * std::abs(p_B.y())), 0.5 + 1e-6);
+      EXPECT_NEAR(point.p_WC.z(), 0.5, 2e-4);
+      EXPECT_GT(point.gap, 0.0);
+      least = std::min(least, point.gap);
+    }
+    EXPECT_NEAR(least, kGap, 1e-8);
+  }
+}
+
+TEST(Manifold, FacesThatLeanAndAreBeyondTheBandTouchInTheClosestPoints) {
+  const LeaningBox leaning;
+  for (const bool swapped : {false, true}) {
+    const ContactManifold manifold = leaning.manifold(swapped, 0.5 * kGap);
+    const ClosestFeatures closest = leaning.closest(swapped);
+    EXPECT_FALSE(manifold.of_face);
+    EXPECT_EQ(manifold.nhat_AB_W, closest.nhat_AB_W);
+    ASSERT_EQ(manifold.count, 1);
+    EXPECT_EQ(manifold.points[0].gap, closest.distance);
+  }
 }
 
 }  // namespace

@@ -41,6 +41,9 @@ TEST(ThrustTable, IsLinearBetweenItsKnotsAndHeldBeyondThem) {
   EXPECT_TRUE(map.exceeds(std::nextafter(100.0, 200.0), kMin, kMax));
   EXPECT_TRUE(map.exceeds(std::nextafter(-100.0, -200.0), kMin, kMax));
   EXPECT_TRUE(map.exceeds(100.0, kMin, 2.9));  // beyond the limit that holds after the table
+  EXPECT_FALSE(map.exceeds(100.0, kMin, 3.0));
+  EXPECT_TRUE(map.exceeds(-100.0, -1.1, kMax));
+  EXPECT_FALSE(map.exceeds(-100.0, -1.2, kMax));
 }
 
 TEST(ThrustTable, NeverLeavesTheTwoKnotsItLiesBetween) {

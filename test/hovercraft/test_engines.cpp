@@ -230,5 +230,73 @@ TEST(EngineDynamics, AnUncheckedStepSizeIsOurOwnMistake) {
   EXPECT_THROW(EngineDynamics(skewEngines(), 0), std::logic_error);
 }
 
+// What course() returns: the first step that has other thrusts. A lag changes them in each step;
+// without one the next time-out does: commands of tick 3, 50 and 80 ticks of it.
+TEST(EngineDynamics, TellsUntilWhenThrustsStay) {
+  Engines engines = skewEngines();
+  engines[0].timeout_ns = 80 * kStepNs;
+  engines[1].timeout_ns = 50 * kStepNs;
+  EngineStates states;
+  states[0] = commanded(2.0, 3);
+  states[1] = commanded(1.0, 3);
+  ThrustCourse course;
+  const auto until = [&](Tick tick) {
+    return EngineDynamics(engines, kStepNs).course(states, tick, course);
+  };
+  EXPECT_EQ(until(3), 53);
+  EXPECT_EQ(until(52), 53);
+  EXPECT_EQ(until(53), 83);
+  EXPECT_EQ(until(83), std::numeric_limits<Tick>::max());
+  engines[2].time_constant = 0.1;
+  EXPECT_EQ(until(5), 53);  // it has no command, nor a thrust that could run down
+  states[2] = commanded(1.0, 5);
+  EXPECT_EQ(until(5), 5);
+  engines[2].time_constant = 0.0;
+  EXPECT_EQ(until(5), 53);
+}
+
+// Thrusts 1 + 2 x + 3 x^2 of the share x: a parabola is its own course in every piece of a step.
+TEST(ThrustCourse, APieceOfAParabolaIsTheParabolaThere) {
+  const auto exact = [](double x) { return 1.0 + 2.0 * x + 3.0 * x * x; };
+  ThrustCourse course;
+  for (std::size_t i = 0; i < course.start.size(); ++i) {
+    const double scale = static_cast<double>(i + 1);
+    course.start[i] = scale * exact(0.0);
+    course.middle[i] = scale * exact(0.5);
+    course.end[i] = scale * exact(1.0);
+  }
+  const ThrustCourse piece = course.piece(0.002, 0.008, 0.01);
+  for (std::size_t i = 0; i < course.start.size(); ++i) {
+    const double scale = static_cast<double>(i + 1);
+    EXPECT_NEAR(piece.start[i], scale * exact(0.2), 20.0 * kRounding) << i;
+    EXPECT_NEAR(piece.middle[i], scale * exact(0.5), 20.0 * kRounding) << i;
+    EXPECT_NEAR(piece.end[i], scale * exact(0.8), 20.0 * kRounding) << i;
+  }
+}
+
+TEST(EngineState, IsFaultyWhereItIsStuckOrWeakerThanItWas) {
+  EngineState state;
+  EXPECT_FALSE(state.isFaulty());
+  state.efficiency = 0.5;
+  EXPECT_TRUE(state.isFaulty());
+  state.efficiency = 0.0;
+  EXPECT_TRUE(state.isFaulty());
+  state.efficiency = 1.0;
+  state.stuck = true;
+  EXPECT_TRUE(state.isFaulty());
+}
+
+TEST(EngineState, LevelsAreTheThrustsOfAll) {
+  EngineStates states;
+  states.resize(5);
+  for (std::size_t id = 0; id < states.size(); ++id) {
+    states[id].thrust = 1.5 + static_cast<double>(id);
+    states[id].commanded = -7.0;
+  }
+  const ActuatorArray<double> levels = levelsOf(states);
+  ASSERT_EQ(levels.size(), 5U);
+  for (std::size_t id = 0; id < 5; ++id) EXPECT_EQ(levels[id], 1.5 + static_cast<double>(id));
+}
+
 }  // namespace
 }  // namespace hovercraft

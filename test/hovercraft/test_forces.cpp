@@ -259,5 +259,29 @@ TEST(Forces, EveryIntegratorKeepsItsOrder) {
   }
 }
 
+// ---- their sum ----------------------------------------------------------------------------------
+
+// Two fans of 3 and 2 N beside and before the centre, and a rudder behind it of rho S/2 = 0.5 kg/m,
+// C_la = 2/rad at 0.25 rad in air of 2 m/s: 0.5 2^2 2 0.25 = 1 N to the left, no drag. Forces
+// (3, 2, 0) + (0, 1, 0); moments about z: 0.2 3 + 0.4 2 - 0.5 1.
+TEST(Forces, OfAllActuatorsAddUpWithTheirMoments) {
+  FanForce ahead;
+  ahead.id = 3;
+  ahead.place = {{0.0, -0.2, 0.0}, {1.0, 0.0, 0.0}};
+  FanForce aside;
+  aside.id = 4;
+  aside.place = {{0.4, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  RudderForce rudder;
+  rudder.id = 5;
+  rudder.place = {{-0.5, 0.0, 0.0}, {1.0, 0.0, 0.0}};
+  rudder.half_density_area = 0.5;
+  rudder.lift_slope = 2.0;
+  Situation situation = withLevels({0.0, 0.0, 0.0, 3.0, 2.0, 0.25});
+  situation.u_B.x() = 2.0;
+  const Wrench sum = wrenchInBody({ahead, aside, rudder}, situation.inputs());
+  EXPECT_LT(norm(sum.force - Vector3(3.0, 3.0, 0.0)), 4.0 * kRounding);
+  EXPECT_LT(norm(sum.torque - Vector3(0.0, 0.0, 0.9)), 4.0 * kRounding);
+}
+
 }  // namespace
 }  // namespace hovercraft

@@ -149,6 +149,55 @@ TEST(Gusts, AnAxisWithoutThemStays) {
   }
 }
 
+// Each axis has its own law: vertical gusts alone, of another size and length than those before.
+TEST(Gusts, OfEachAxisAreItsOwn) {
+  const GustParameters all = {GustModel::kDryden, {1.0, 15.0}, {2.0, 30.0}, {3.0, 60.0}};
+  const Gusts together(all, kSpeed, kStep, {"craft"});
+  const Gusts along({all.model, all.along, {}, {}}, kSpeed, kStep, {"craft"});
+  const Gusts across({all.model, {}, all.across, {}}, kSpeed, kStep, {"craft"});
+  const Gusts vertical({all.model, {}, {}, all.vertical}, kSpeed, kStep, {"craft"});
+  const auto sum = gustsOver(together, 100);
+  const auto x = gustsOver(along, 100);
+  const auto y = gustsOver(across, 100);
+  const auto z = gustsOver(vertical, 100);
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    EXPECT_EQ(sum[i], Vector3(x[i].x(), y[i].y(), z[i].z())) << i;
+    EXPECT_EQ(z[i].head<2>(), Vector3::Zero().head<2>()) << i;
+    EXPECT_NE(z[i].z(), 0.0) << i;
+  }
+}
+
+TEST(Gusts, InAlmostNoWindAreCarriedAsByOneOfOneMetreASecond) {
+  const GustParameters parameters = sameOnAllAxes(GustModel::kDryden, 15.0);
+  const auto slow = gustsOver(Gusts(parameters, 0.0, kStep, {"craft"}), 100);
+  EXPECT_EQ(slow, gustsOver(Gusts(parameters, 1.0, kStep, {"craft"}), 100));
+  EXPECT_EQ(slow, gustsOver(Gusts(parameters, 0.9, kStep, {"craft"}), 100));
+  EXPECT_NE(slow, gustsOver(Gusts(parameters, 1.1, kStep, {"craft"}), 100));
+}
+
+// Stationary deviations: sigma of the first order; of x1' = -a x1 + x2, x2' = -a x2 + white noise
+// of density 1 they are sqrt(1/(4 a^3)) and sqrt(1/(2 a)), and x2 is bounded by 100 of the sum
+// 1/(2 sqrt(a)) + 1/(2 sqrt(a)) of its shares of both draws. a = 5/15 1/s.
+TEST(Gusts, CanBeWithinAHundredDeviations) {
+  const double a = kSpeed / 15.0;
+  const GustAxis axis = {2.0, 15.0};
+  const Gusts gusts({GustModel::kDryden, axis, axis, {}}, kSpeed, kStep, {"craft"});
+  const double most[] = {200.0, 0.0, 100.0 / std::sqrt(4.0 * a * a * a), 100.0 / std::sqrt(a),
+                         0.0,   0.0};
+  EXPECT_TRUE(gusts.canBe(gusts.start(0, kSeed)));
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (const double sign : {-1.0, 1.0}) {
+      GustState state{};
+      state[i] = sign * 0.999 * most[i];
+      EXPECT_TRUE(gusts.canBe(state)) << i;
+      state[i] = sign * (1.001 * most[i] + 1e-9);
+      EXPECT_FALSE(gusts.canBe(state)) << i;
+      state[i] = testing::kNan;
+      EXPECT_FALSE(gusts.canBe(state)) << i;
+    }
+  }
+}
+
 TEST(Gusts, TwoBodiesOfOneNameAreRefused) {
   EXPECT_THROW(Gusts(sameOnAllAxes(GustModel::kDryden, 15.0), kSpeed, kStep, {"a", "a"}),
                std::invalid_argument);
@@ -160,6 +209,8 @@ TEST(Gusts, BlowAlongAndAcrossTheMeanWind) {
   EXPECT_LT(norm(gustInWorld({3.0, 4.0, 9.0}, {0.0, 10.0, 0.0}) - Vector3(-8.0, 6.0, 0.0)),
             kRounding);
   EXPECT_EQ(gustInWorld({0.0, 0.0, -2.0}, {1.0, 2.0, 3.0}), Vector3(1.0, 2.0, 3.0));
+  EXPECT_EQ(gustInWorld({0.0, 0.25, 0.0}, {1.0, 2.0, 3.0}),
+            Vector3(-2.0, 1.0, 3.0));  // a light air
 }
 
 }  // namespace

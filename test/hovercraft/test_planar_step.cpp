@@ -173,6 +173,11 @@ TEST(PlanarCraft, IsNoneWhereMoreActsOrNumbersAreHuge) {
   other = model;
   other.weight_W.z() = -1e101;
   EXPECT_FALSE(PlanarCraft::of(other).has_value());
+  std::array<EngineParameters, kEngineCount> engines;
+  engines[1].p_HE.z() = 1e101;  // a moment about y of 1e101 N m for 1 N
+  other = model;
+  other.engines = EngineGeometry(engines, Vector3::Zero());
+  EXPECT_FALSE(PlanarCraft::of(other).has_value());
   for (Vector3 Drag::*law :
        {&Drag::linear, &Drag::quadratic, &Drag::angular_linear, &Drag::angular_quadratic}) {
     other = model;

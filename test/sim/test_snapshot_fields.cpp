@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 #include "../support/scenario_text.h"
@@ -373,10 +374,13 @@ TEST_F(SnapshotRules, WhatThePlanarModelCannotDoIsRefused) {
             "refused: snap.yaml: vehicles.craft.body.momentum: " + rule);
   EXPECT_EQ(told_in_plane([](auto& body) { body.angular_momentum_W.x() = 1e-9; }),
             "refused: snap.yaml: vehicles.craft.body.angular_momentum: " + rule);
-  EXPECT_EQ(told_in_plane([](auto& body) {
-              body.orientation = rotationFromRpy({0.01, 0.0, 0.0});
-            }),
-            "refused: snap.yaml: vehicles.craft.body: " + rule);
+  // Rolled and pitched, whichever way the craft looks: a quarter turn hides one in the other.
+  for (const Vector3& rpy : {Vector3(0.01, 0.0, 0.0), Vector3(0.0, 0.01, 0.0),
+                             Vector3(0.01, 0.0, 0.5 * kPi), Vector3(0.0, 0.01, 0.5 * kPi)}) {
+    EXPECT_EQ(told_in_plane([&rpy](auto& body) { body.orientation = rotationFromRpy(rpy); }),
+              "refused: snap.yaml: vehicles.craft.body: " + rule)
+        << rpy.transpose();
+  }
 }
 
 TEST_F(SnapshotRules, MotionsAreThoseThatSetStateTakes) {
