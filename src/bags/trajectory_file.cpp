@@ -274,6 +274,21 @@ Trajectory SpaceReader::fromPose(bool has_twist) const {
   return trajectory;
 }
 
+/// Trajectories without states: their times count from tick 0 of those that have some, where these
+/// have one epoch.
+void countFromTickZero(std::vector<Trajectory>& trajectories,
+                       const std::map<std::string, StatesReader>& of_states) {
+  std::set<std::int64_t> epochs_ns;
+  for (const auto& [space, reader] : of_states) {
+    if (reader.epochNs()) epochs_ns.insert(*reader.epochNs());
+  }
+  if (epochs_ns.size() != 1) return;
+  for (Trajectory& trajectory : trajectories) {
+    if (of_states.count(trajectory.vehicle) > 0) continue;
+    for (TrajectorySample& sample : trajectory.samples) sample.time_ns -= *epochs_ns.begin();
+  }
+}
+
 std::vector<Trajectory> readAll(const std::string& path, const rosbag::Bag& bag) {
   rosbag::View everything(bag);
   const auto states = spacesWith<hovercraft_sim::State>(everything, kStateTopic);
@@ -294,23 +309,14 @@ std::vector<Trajectory> readAll(const std::string& path, const rosbag::Bag& bag)
                     path, kStateTopic, kOdomTopic, kPoseTopic));
   }
   std::vector<Trajectory> trajectories;
-  std::set<std::int64_t> epochs_ns;
   for (const std::string& space : spaces) {
     const auto found = of_states.find(space);
-    if (found == of_states.end()) {
-      const SpaceReader reader(path, bag, space);
-      trajectories.push_back(odoms.count(space) > 0 ? reader.fromOdom()
+    const SpaceReader reader(path, bag, space);
+    trajectories.push_back(found != of_states.end() ? found->second.trajectory()
+                           : odoms.count(space) > 0 ? reader.fromOdom()
                                                     : reader.fromPose(twists.count(space) > 0));
-      continue;
-    }
-    trajectories.push_back(found->second.trajectory());
-    if (found->second.epochNs()) epochs_ns.insert(*found->second.epochNs());
   }
-  if (epochs_ns.size() != 1) return trajectories;
-  for (Trajectory& trajectory : trajectories) {
-    if (of_states.count(trajectory.vehicle) > 0) continue;
-    for (TrajectorySample& sample : trajectory.samples) sample.time_ns -= *epochs_ns.begin();
-  }
+  countFromTickZero(trajectories, of_states);
   return trajectories;
 }
 
