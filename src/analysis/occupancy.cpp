@@ -9,6 +9,7 @@
 
 #include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/io/output_file.h"
+#include "hovercraft_sim/math/files_read.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/scenario/world_builder.h"
 
@@ -174,7 +175,8 @@ OccupancyMap occupancyOf(const Scenario& scenario, const OccupancyRequest& reque
   return map;
 }
 
-void writeMap(const OccupancyMap& map, const std::string& path) {
+void writeMap(const OccupancyMap& map, const std::string& path,
+              const std::vector<std::string>& inputs) {
   const std::filesystem::path yaml(path);
   if (yaml.extension() != ".yaml") {
     throw std::invalid_argument(fmt::format("--output = {}: must end in .yaml", path));
@@ -190,12 +192,19 @@ void writeMap(const OccupancyMap& map, const std::string& path) {
       pixels += map.cells[cell] > 0 ? '\0' : static_cast<char>(254);
     }
   }
-  checkOutputs({{"--output", path}, {"--output", image.string()}}, {});
+  checkOutputs({{"--output", path}, {"--output", image.string()}}, inputs);
   writeWholeFile(image.string(), pixels);
   writeWholeFile(path, fmt::format("image: {}\nresolution: {}\norigin: [{}, {}, 0]\nnegate: 0\n"
                                    "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
                                    image.filename().string(), numberText(map.resolution),
                                    numberText(map.origin_x), numberText(map.origin_y)));
+}
+
+void writeMapOf(const std::string& scenario, const OccupancyRequest& request,
+                const std::string& path, RosFiles& ros) {
+  const FilesRead read;
+  const Scenario loaded = loadScenarioFile(scenario, {}, ros);
+  writeMap(occupancyOf(loaded, request), path, read.paths());
 }
 
 }  // namespace hovercraft

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "hovercraft_sim/math/files_read.h"
+
 namespace hovercraft {
 namespace {
 
@@ -65,6 +67,7 @@ InputFile::InputFile(const std::string& path, InputKind kind) : path_(path) {
   if (!is_right) {
     refuse(path, fmt::format("it is {}, must be a regular file", kindOfFile(status.st_mode)));
   }
+  FilesRead::note(path);
   buffer_ = std::make_unique<char[]>(kBufferSize);
 }
 

@@ -30,16 +30,31 @@ bool statusOf(const std::string& path, struct stat& status) {
   return ::stat(path.c_str(), &status) == 0;
 }
 
+/// Whether the standard output or the standard error goes into the file.
+bool isStandardStream(const struct stat& file) {
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    struct stat standard {};
+    if (::fstat(stream, &standard) == 0 && standard.st_dev == file.st_dev &&
+        standard.st_ino == file.st_ino) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Why nothing can be written there; empty if it can.
 std::string objectionTo(const std::string& path) {
   if (path.empty()) return "the name is empty";
   if (path.find('\0') != std::string::npos) return "the name holds a NUL";
   struct stat status {};
   if (statusOf(path, status)) {
-    if (S_ISREG(status.st_mode)) return "";
-    return fmt::format("it is {}, must be a regular file or a name that is free{}",
-                       kindOfFile(status.st_mode),
-                       S_ISDIR(status.st_mode) ? "" : " (- is the standard output)");
+    if (!S_ISREG(status.st_mode)) {
+      return fmt::format("it is {}, must be a regular file or a name that is free",
+                         kindOfFile(status.st_mode));
+    }
+    return isStandardStream(status)
+               ? "must not be where the standard output or the standard error goes"
+               : "";
   }
   if (::lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode)) {
     return "it is a link that leads nowhere, must be a regular file or a name that is free";
@@ -165,20 +180,6 @@ bool isSameFile(const std::string& a, const std::string& b) {
   return canonical(a) == canonical(b);
 }
 
-/// Whether the standard output or the standard error goes into the file.
-bool isStandardStream(const std::string& path) {
-  struct stat file {};
-  if (!statusOf(path, file)) return false;
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
-    struct stat standard {};
-    if (::fstat(stream, &standard) == 0 && standard.st_dev == file.st_dev &&
-        standard.st_ino == file.st_ino) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Whether one output is the other, or has the name that the other bears until it is whole.
 bool clash(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
@@ -195,10 +196,11 @@ std::string objectionTo(const std::string& path, const std::vector<std::string>&
   if (std::any_of(inputs.begin(), inputs.end(), is_output)) {
     return "must not be a file that is read";
   }
-  std::string objection = objectionTo(path);
-  if (!objection.empty()) return objection;
-  return isStandardStream(path) ? "must not be where the standard output or the standard error goes"
-                                : "";
+  const std::string objection = objectionTo(path);
+  struct stat status {};
+  const bool is_stream =
+      statusOf(path, status) && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+  return is_stream ? objection + " (- is the standard output)" : objection;
 }
 
 }  // namespace

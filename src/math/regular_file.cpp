@@ -7,6 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "hovercraft_sim/math/files_read.h"
+
 namespace hovercraft {
 namespace {
 
@@ -64,6 +66,7 @@ std::string contentOfRegularFile(const std::string& path, const std::string& nam
   checked(status, name, most_bytes);
   const Descriptor file(path);
   if (file.number() < 0 || fstat(file.number(), &status) != 0) refuse(name, unreadable);
+  FilesRead::note(path);
   // One byte more than it should have, so that its end is seen without another block.
   std::string content(checked(status, name, most_bytes) + 1, '\0');
   std::size_t length = 0;

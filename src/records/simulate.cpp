@@ -13,6 +13,7 @@
 #include "hovercraft_sim/io/output_file.h"
 #include "hovercraft_sim/io/progress_bar.h"
 #include "hovercraft_sim/io/steady_clock.h"
+#include "hovercraft_sim/math/files_read.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/records/actuators_csv.h"
@@ -70,6 +71,13 @@ void checkEvery(const char* option, Tick every, const char* of, const std::strin
   }
 }
 
+std::vector<OutputOption> outputsOf(const SimulateRequest& request) {
+  return {{"--output", request.output},
+          {"--contacts", request.contacts},
+          {"--actuators", request.actuators},
+          {"--cushion", request.cushion}};
+}
+
 void checkRequest(const SimulateRequest& request, RosFiles& ros) {
   if (request.every < 1) {
     throw std::invalid_argument(fmt::format("--every = {}: must be 1 or greater", request.every));
@@ -92,11 +100,7 @@ void checkRequest(const SimulateRequest& request, RosFiles& ros) {
   }
   std::vector<std::string> inputs = {request.scenario, request.commands};
   inputs.insert(inputs.end(), request.pilots.begin(), request.pilots.end());
-  checkOutputs({{"--output", request.output},
-                {"--contacts", request.contacts},
-                {"--actuators", request.actuators},
-                {"--cushion", request.cushion}},
-               inputs);
+  checkOutputs(outputsOf(request), inputs);
 }
 
 /// Hands everything on to another observer, and counts the wall time that this one takes.
@@ -213,19 +217,19 @@ std::unique_ptr<RunObserver> openOutput(const std::string& path, const Scenario&
   return std::make_unique<StatesCsvWriter>(path, scenario);
 }
 
-/// What else it reads and writes.
-std::vector<std::string> filesOf(const SimulateRequest& request) {
-  std::vector<std::string> files = request.pilots;
-  for (const std::string* file : {&request.scenario, &request.commands, &request.output,
-                                  &request.contacts, &request.actuators, &request.cushion}) {
-    files.push_back(*file);
-  }
+/// What else it writes, and all that was read: what the files of sensors must leave as it is.
+std::vector<std::string> filesOf(const SimulateRequest& request,
+                                 const std::vector<std::string>& read) {
+  std::vector<std::string> files = read;
+  for (const OutputOption& output : outputsOf(request)) files.push_back(output.path);
   return files;
 }
 
 /// The output and the CSV files beside it.
+/// @param read files that must stay.
 std::unique_ptr<RunOutputs> openOutputs(const SimulateRequest& request, const Scenario& scenario,
-                                        RosFiles& ros) {
+                                        const std::vector<std::string>& read, RosFiles& ros) {
+  checkOutputs(outputsOf(request), read);
   auto outputs = std::make_unique<RunOutputs>();
   outputs->add(openOutput(request.output, scenario, request.truth_odom, ros), request.every);
   if (!request.contacts.empty()) {
@@ -240,8 +244,9 @@ std::unique_ptr<RunOutputs> openOutputs(const SimulateRequest& request, const Sc
     outputs->add(std::make_unique<CushionCsvWriter>(request.cushion, scenario), every);
   }
   if (!request.sensors.empty()) {
-    outputs->add(std::make_unique<SensorsCsvWriter>(request.sensors, scenario, filesOf(request)),
-                 request.every);
+    outputs->add(
+        std::make_unique<SensorsCsvWriter>(request.sensors, scenario, filesOf(request, read)),
+        request.every);
   }
   return outputs;
 }
@@ -256,6 +261,7 @@ void holdCommands(Scenario& scenario) {
 
 RunSummary simulate(const SimulateRequest& request, std::ostream& messages, RosFiles& ros) {
   checkRequest(request, ros);
+  const FilesRead read;
   Scenario scenario = loadScenarioFile(request.scenario, {"--set", request.sets}, ros);
   if (request.hold) holdCommands(scenario);
   CraftPilots pilots(request.pilots, scenario);
@@ -264,7 +270,7 @@ RunSummary simulate(const SimulateRequest& request, std::ostream& messages, RosF
   const std::unique_ptr<CommandSource> commands =
       request.commands.empty() ? std::make_unique<NoCommands>()
                                : openCommands(request.commands, scenario, ros);
-  std::unique_ptr<RunOutputs> outputs = openOutputs(request, scenario, ros);
+  std::unique_ptr<RunOutputs> outputs = openOutputs(request, scenario, read.paths(), ros);
   plan.every = outputs->every();
   Simulation simulation(scenario);
 

@@ -53,17 +53,19 @@ void makeFolder(const std::string& option, const std::string& path) {
   }
 }
 
-/// Each figure as a file of its own. No file of a folder may be one that is read.
+/// Each figure as a file of its own. No file of a folder may be one that is read, or another one.
 void writeFigures(const std::string& option, const std::string& folder,
                   const std::vector<NamedFigure>& figures, const std::vector<std::string>& inputs,
                   const std::function<std::string(const Figure&)>& format) {
   if (folder.empty()) return;
+  std::vector<hovercraft::OutputOption> files;
   for (const NamedFigure& named : figures) {
-    const std::string path =
-        (std::filesystem::path(folder) / (named.name + "." + option.substr(2))).string();
-    hovercraft::checkOutputs({{option, path}}, inputs);
-    writeFile(path, format(named.figure));
+    const std::string name = named.name + "." + option.substr(2);
+    files.push_back({option, (std::filesystem::path(folder) / name).string()});
   }
+  hovercraft::checkOutputs(files, inputs);
+  auto file = files.cbegin();
+  for (const NamedFigure& named : figures) writeFile((file++)->path, format(named.figure));
 }
 
 }  // namespace
@@ -86,6 +88,7 @@ std::string makeReport(const ReportRequest& request, std::ostream& terminal) {
   writeFile(request.output, page);
   const bool wants_figures = !request.png.empty() || !request.svg.empty();
   const auto figures = wants_figures ? figuresOf(runs) : std::vector<NamedFigure>();
+  inputs.push_back(request.output);  // it must stay, as what was read
   writeFigures("--png", request.png, figures, inputs, pngOf);
   writeFigures("--svg", request.svg, figures, inputs, svgOf);
   std::string summary;

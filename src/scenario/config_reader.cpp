@@ -172,7 +172,8 @@ std::int64_t ConfigReader::wholeNumberOr(std::int64_t fallback, const char* key)
   errno = 0;
   const std::int64_t value = std::strtoll(node.text().c_str(), nullptr, 10);
   if (digits.empty() || !std::all_of(digits.begin(), digits.end(), is_digit) || errno == ERANGE) {
-    fail(key, "must be a whole number of at most 64 bits");
+    fail(key, node.isPlainText() ? "must be a whole number of at most 64 bits"
+                                 : "must be a whole number, not a text in quotes");
   }
   if (isOctal(digits)) fail(key, "must be a whole number without leading zeros");
   return value;

@@ -22,6 +22,9 @@ Vector3 takeScale(const std::vector<std::string>& words, std::vector<std::string
     }
     numbers.push_back(parsed.value);
   }
+  if (numbers.empty() && !words.empty()) {
+    throw std::invalid_argument(fmt::format("--scale {}: must be a number", words[0]));
+  }
   if (numbers.size() != 1 && numbers.size() != 3) {
     throw std::invalid_argument(
         fmt::format("--scale: {} numbers, it takes 1 or 3", numbers.size()));

@@ -46,6 +46,10 @@ struct Open {
   std::vector<ConfigNode> merged;  // the maps of <<, the first of which wins
 };
 
+std::string deepText() {
+  return fmt::format("must have at most {} maps and lists within each other", kDeepestYaml);
+}
+
 /// Makes the tree from what yaml-cpp reads piece by piece. Its own tree (YAML::Node) would take
 /// duplicate keys, know no merge keys, and share nodes that overrides are to change apart.
 class TreeBuilder : public YAML::EventHandler {
@@ -192,10 +196,7 @@ class TreeBuilder : public YAML::EventHandler {
     fail(source_, fmt::format("must hold at most {} values, aliases and merge keys written out",
                               kMostYamlValues));
   }
-  [[noreturn]] void failDeep() const {
-    fail(source_,
-         fmt::format("must have at most {} maps and lists within each other", kDeepestYaml));
-  }
+  [[noreturn]] void failDeep() const { fail(source_, deepText()); }
 
   const std::string& source_;
   bool began_ = false;
@@ -295,6 +296,21 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+/// yaml-cpp keeps all that begins with a bracket in memory until it knows whether that is a key,
+/// and says how deep it is only then. Brackets within quotes count too: no text has so many of them
+/// open.
+constexpr std::size_t kMostOpenBrackets = 1000;
+
+std::size_t mostOpenBrackets(const std::string& text) {
+  std::size_t open = 0;
+  std::size_t most = 0;
+  for (const char c : text) {
+    if (c == '[' || c == '{') most = std::max(most, ++open);
+    if ((c == ']' || c == '}') && open > 0) --open;
+  }
+  return most;
+}
+
 }  // namespace
 
 ConfigNode treeOf(const std::string& text, const std::string& source) {
@@ -303,6 +319,9 @@ ConfigNode treeOf(const std::string& text, const std::string& source) {
   }
   if (const auto fault = faultOfText(text)) {
     fail(source, fmt::format("line {}: {}", fault->line, fault->rule));
+  }
+  if (mostOpenBrackets(text) > kMostOpenBrackets) {
+    fail(source, deepText());
   }
   std::istringstream stream(guarded(linesOf(withoutByteOrderMark(text), source)));
   TreeBuilder builder(source);

@@ -54,8 +54,7 @@ int main(int argc, char** argv) {
     }
     po::notify(values);
     hovercraft::LateRosFiles ros(HOVERCRAFT_ROS_LIBRARY);
-    hovercraft::writeMap(
-        hovercraft::occupancyOf(hovercraft::loadScenarioFile(scenario, {}, ros), request), output);
+    hovercraft::writeMapOf(scenario, request, output, ros);
   } catch (const std::exception& error) {
     std::cerr << "occupancy: " << error.what() << '\n';
     return 1;

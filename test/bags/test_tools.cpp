@@ -426,6 +426,40 @@ TEST_F(Tools, NoOutputGoesWhereTheStandardOutputGoes) {
                 ": must not be where the standard output or the standard error goes\n");
 }
 
+// What a scenario names is read too: a mesh, an image of heights.
+TEST_F(Tools, NoOutputIsAFileThatTheScenarioNames) {
+  const std::string mesh = contentOf("test/data/cube.obj");
+  folder_.write("c.obj", mesh);
+  std::filesystem::create_symlink("c.obj", folder_.file("l.csv"));
+  std::string scenario = oneCraftYaml();
+  const std::string given = "    mass: 2\n    inertia: {ixx: 0.5, iyy: 0.5, izz: 0.5}\n";
+  scenario.replace(scenario.find(given), given.size(),
+                   "    parts: [{mesh: {file: c.obj}, mass: 5}]\n");
+  folder_.write("m.yaml", scenario);
+  for (const char* option : {"-o {}l.csv", "-o - --contacts {}l.csv", "-o - --actuators {}l.csv"}) {
+    const Outcome outcome = run("simulate {}m.yaml -d 0.01 " + std::string(option) + " 2>&1");
+    EXPECT_EQ(outcome.status, 1) << option;
+    EXPECT_NE(outcome.output.find("l.csv: must not be a file that is read"), std::string::npos)
+        << outcome.output;
+  }
+  EXPECT_EQ(contentOf(folder_.file("c.obj")), mesh);
+}
+
+TEST_F(Tools, AMapDoesNotReplaceTheHeightsOfItsScenario) {
+  const std::string image = contentOf("config/rough.pgm");
+  folder_.write("map.pgm", image);
+  std::string scenario = contentOf("config/rough.yaml");
+  scenario.replace(scenario.find("rough.pgm"), 9, "map.pgm");
+  folder_.write("s.yaml", scenario +
+                              "\nworld: {obstacles: {b: {box: {size: [1, 1, 3]}, position: "
+                              "[-20, -20, 0]}}}\n");
+  const Outcome outcome = run("occupancy {}s.yaml --output {}map.yaml 2>&1");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.output.find("map.pgm: must not be a file that is read"), std::string::npos)
+      << outcome.output;
+  EXPECT_EQ(contentOf(folder_.file("map.pgm")), image);
+}
+
 TEST_F(Tools, CommandsMayComeThroughAPipe) {
   folder_.write("s.yaml", oneCraftYaml());
   folder_.write("c.csv", "time,rear,left,right\n0,1,0,0.1\n");

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -145,6 +147,39 @@ TEST_F(SpecialOutputs, NameTheWordForTheStandardOutput) {
             "--output = /dev/full: it is a device, must be a regular file or a name that is free "
             "(- is the standard output)");
   EXPECT_EQ(errorOf("/dev/null", "", {}).rfind("--output = /dev/null: it is a device", 0), 0U);
+}
+
+/// The standard error goes into a file, as long as it lives.
+class ErrorsInto {
+ public:
+  explicit ErrorsInto(const std::string& path) : before_(::dup(STDERR_FILENO)) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+    ::dup2(file, STDERR_FILENO);
+    ::close(file);
+  }
+  ErrorsInto(const ErrorsInto&) = delete;
+  ErrorsInto& operator=(const ErrorsInto&) = delete;
+  ~ErrorsInto() {
+    ::dup2(before_, STDERR_FILENO);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+};
+
+// The log of a node, say, that is told to save there.
+TEST_F(Outputs, AreNotWhereTheStandardErrorGoes) {
+  const std::string log = folder_.file("log");
+  std::string told;
+  {
+    const ErrorsInto into(log);
+    told = messageOf([&] { writeWholeFile(log, "text"); });
+  }
+  EXPECT_EQ(told, log +
+                      ": cannot be written: must not be where the standard output or the "
+                      "standard error goes");
+  EXPECT_EQ(contentOf(log), "");
 }
 
 TEST_F(Outputs, ALinkToAFileStaysALinkAndItsTargetIsReplaced) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/records/simulate.h"
 #include "hovercraft_sim/scenario/scenario.h"
 
 namespace hovercraft {
@@ -35,7 +36,14 @@ HOVERCRAFT_PUBLIC OccupancyMap occupancyOf(const Scenario& scenario,
                                            const OccupancyRequest& request);
 
 /// As map_server reads it: `path` (.yaml) and, beside it, the image with the same name (.pgm).
+/// @param inputs files that must stay.
 /// @throws std::invalid_argument if the path does not end in .yaml, or cannot be written.
-HOVERCRAFT_PUBLIC void writeMap(const OccupancyMap& map, const std::string& path);
+HOVERCRAFT_PUBLIC void writeMap(const OccupancyMap& map, const std::string& path,
+                                const std::vector<std::string>& inputs = {});
+
+/// The tool `occupancy`: the map of a scenario file. @throws as loadScenarioFile(), occupancyOf()
+/// and writeMap().
+HOVERCRAFT_PUBLIC void writeMapOf(const std::string& scenario, const OccupancyRequest& request,
+                                  const std::string& path, RosFiles& ros);
 
 }  // namespace hovercraft
