@@ -196,7 +196,7 @@ TEST(TakeScale, RefusesWhatIsNoScale) {
   EXPECT_EQ(message({"-1"}), "--scale -1: must be greater than 0 and finite");
   EXPECT_EQ(message({"1e999"}), "--scale 1e999: must be greater than 0 and finite");
   EXPECT_EQ(message({"1", "2", "a.obj"}), "--scale: 2 numbers, it takes 1 or 3");
-  EXPECT_EQ(message({"a.obj"}), "--scale: 0 numbers, it takes 1 or 3");
+  EXPECT_EQ(message({"a.obj"}), "--scale a.obj: must be a number");
 }
 
 }  // namespace
