@@ -236,6 +236,31 @@ TEST(Manifold, EachFaceOfACubeTouchesInItsFourCorners) {
   }
 }
 
+// Likewise each of its twelve edges, beside the opposite one of another cube: the ends of the
+// common part, from -0.25 to 0.5 along them.
+TEST(Manifold, EachEdgeOfACubeTouchesAParallelOneInTwoPoints) {
+  const ConvexPolyhedron cube = boxPolyhedron(Vector3::Ones());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double one : {-1.0, 1.0}) {
+      for (const double two : {-1.0, 1.0}) {
+        const Vector3 beside = one * Vector3::Unit(axis) + two * Vector3::Unit((axis + 1) % 3);
+        const int along = (axis + 2) % 3;
+        const ContactManifold manifold =
+            manifoldOf(cube, Pose(), cube,
+                       {Matrix3::Identity(), (1.0 + kGap) * beside + 0.25 * Vector3::Unit(along)});
+        ASSERT_EQ(manifold.count, 2) << beside.transpose();
+        const double x0 = manifold.points[0].p_WC[along];
+        const double x1 = manifold.points[1].p_WC[along];
+        EXPECT_NEAR(std::min(x0, x1), -0.25, 1e-12);
+        EXPECT_NEAR(std::max(x0, x1), 0.5, 1e-12);
+        for (const ContactPoint& point : pointsOf(manifold)) {
+          EXPECT_NEAR(point.gap, kGap * std::sqrt(2.0), 1e-14);
+        }
+      }
+    }
+  }
+}
+
 // Gaps and band of 2^-20 m to the last bit.
 TEST(Manifold, ACornerAtTheBandIsStillAPoint) {
   const double gap = 0x1p-20;
