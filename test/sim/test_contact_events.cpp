@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/simulation.h"
 
 #include "../support/scenario_text.h"
@@ -37,7 +38,9 @@ world:
 TEST(ContactEvents, TellWhoMetWhenAndHowHard) {
   Simulation simulation(testing::parsed(kFalling));
   std::vector<ContactEvent> events;
-  simulation.on_contact = [&](const ContactEvent& event) {
+  RunCallbacks told;
+  simulation.observe(&told);
+  told.on_contact = [&](const ContactEvent& event) {
     events.push_back(event);
     EXPECT_EQ(event.tick, simulation.tick());
   };
