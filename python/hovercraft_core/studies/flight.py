@@ -10,17 +10,9 @@ import numpy as np
 
 from .. import _arrays, _core
 from .._simulation import Scenario, Simulation, _Origin, _package_folder, bags
+from .flown import Failure, Flight
 from .metrics import MetricFailure
-
-STATUSES = ("ok", "diverged", "refused", "controller failed", "metric failed", "died")
-
-
-class Failure(Exception):
-    """A flight that has no metrics: with a status of STATUSES."""
-
-    def __init__(self, status, message):
-        super().__init__(" ".join(message.split())[:400])
-        self.status = status
+from .together import Together
 
 
 class Observation:
@@ -41,43 +33,6 @@ class Observation:
     def samples(self):
         """By craft and sensor an array, as of `Run.sensors`; before the first step nothing."""
         return {} if self._result is None else self._simulation._run_of(self._result, None).sensors
-
-
-class Flight:
-    """A flight that was flown, as metrics look at it."""
-
-    def __init__(self, simulation, result, held, values, functions):
-        self.simulation, self.result, self.held, self.values = simulation, result, held, values
-        self.names = [craft.name for craft in simulation._crafts] + simulation._bodies
-        self.function = functions
-        self.origin_parts = None
-        self.signals = {}  # those that a metric has asked for
-
-    @property
-    def origin(self):
-        """What the flight was made from."""
-        return _Origin(self.held.yaml(), *self.origin_parts)
-
-    def states(self, body):
-        """Rows of a craft or a loose body, by index."""
-        return self.result["states"][body]
-
-    def all_states(self):
-        """Of each craft, then of each loose body."""
-        return self.result["states"]
-
-    def actuator(self, craft, name):
-        """Rows of one actuator."""
-        described = self.simulation._crafts[craft]
-        return self.result["actuators"][craft][described.ids[name]::len(described.all_names)]
-
-    def contacts(self):
-        """(rows, names)"""
-        return self.result["contacts"], self.result["names"]
-
-    def run(self):
-        """A Run."""
-        return self.simulation._run_of(self.result, self.origin)
 
 
 def load_function(plan, name):
@@ -115,7 +70,6 @@ class Flyer:
     def rows(self, chunk):
         """row() of each, some of them flown side by side: the same to the last bit, in less time."""
         if self.together is None:
-            from .together import Together
             self.together = Together(self)
         found = self.together.fly(chunk) if self.together.size > 1 else [None] * len(chunk)
         return [self._row(cells, flown) for cells, flown in zip(chunk, found)]

@@ -3,8 +3,8 @@ import html
 
 import numpy as np
 
-
-from .flight import Failure, Flyer
+from .flight import Flyer
+from .flown import Failure
 from .results import write_whole
 from .summary import command
 

@@ -3,7 +3,7 @@ import numpy as np
 
 from .. import _arrays, _core
 from .._simulation import Scenario
-from .flight import Failure, Flight
+from .flown import Failure, Flight
 
 MOST_BYTES = 16 << 20  # of what is put out of runs that fly together; it is there twice for a moment
 MOST_RUNS = 256        # more do not fly faster
