@@ -26,6 +26,27 @@ def kills_its_process(observation, memory):
     return {"rear": 1.0}
 
 
+class Mute(Exception):
+    """Has nothing to say, and ends the process when it is asked."""
+
+    def __str__(self):
+        raise SystemExit(4)
+
+
+def ends_its_process(observation, memory):
+    """A controller that raises what ends a process, by seed."""
+    raised = {1: SystemExit(3), 2: KeyboardInterrupt(), 3: GeneratorExit("no more"), 4: Mute()}.get(observation.parameters["seed"])
+    if raised is not None:
+        raise raised
+    return {"rear": 1.0}
+
+
+def presses_ctrl_c(observation, memory):
+    """A controller in whose time Ctrl-C is pressed."""
+    signal.raise_signal(signal.SIGINT)
+    return {"rear": 1.0}
+
+
 def slow(observation, memory):
     """A controller that takes its time: 20 ms a flight of one call."""
     time.sleep(0.02)
@@ -35,6 +56,13 @@ def slow(observation, memory):
 def last_x(run, values):
     """A metric."""
     return run.states["hovercraft"]["position"][-1, 0] + 0.0 * values["seed"]
+
+
+def exits(run, values):
+    """A metric that ends its process."""
+    if values["seed"] == 5:
+        raise SystemExit(2)
+    return 1.0
 
 
 def no_number(run, values):

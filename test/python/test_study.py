@@ -386,6 +386,46 @@ world:
         plan = self.plan(metrics={"bad": {"function": "study_functions:no_number"}}, runs=1)
         self.assertEqual(flight.Flyer(plan).row(design.draw(plan)[0])[2], "metric failed")
 
+    def test_what_would_end_the_process_is_a_row_too(self):
+        metrics = {"end_x": {"final": "position.x"}, "own": {"function": "study_functions:exits"}}
+        self.fly(self.study(**{**CONTROLLED, "controller": "study_functions:ends_its_process"}, metrics=metrics, runs=6, seed=1, vary=None,
+                            duration=0.1), "out")
+        self.assertEqual([(row["status"], row["message"]) for row in self.rows("out")], [
+            ("controller failed", "at 0 s: SystemExit: 3"), ("controller failed", "at 0 s: KeyboardInterrupt"),
+            ("controller failed", "at 0 s: GeneratorExit: no more"), ("controller failed", "at 0 s: Mute"),
+            ("metric failed", "own: SystemExit: 2"), ("ok", "")])
+
+    def test_a_module_that_cannot_be_loaded_is_said_by_each_run(self):
+        for text, function, said in (("raise SystemExit(3)", "f", "module ends: SystemExit: 3"), ("def f(: pass", "f", "module ends: SyntaxError: "),
+                                     ("import no_such_module", "f", "module ends: ModuleNotFoundError: No module named 'no_such_module'"),
+                                     ("f = 1", "f", "ends:f: the module has no such function")):
+            self.write("ends.py", text)
+            for changes, status in (({**CONTROLLED, "controller": f"ends:{function}"}, "controller failed"),
+                                    ({"metrics": {"own": {"function": f"ends:{function}"}}}, "metric failed")):
+                plan = self.plan(**changes, runs=2)
+                flyer = flight.Flyer(plan)
+                for row in flyer.rows(design.draw(plan)):
+                    with self.subTest(text, status=status):
+                        self.assertEqual(row[2], status)
+                        self.assertIn(f": ImportError: {said}", row[-1])
+
+    def test_a_package_that_ends_the_process_is_an_error_of_the_study(self):
+        os.mkdir(self.folder + "/ending")
+        self.write("ending/__init__.py", "raise SystemExit(3)")
+        self.write("ending/inner.py", "")
+        self.addCleanup(sys.path.remove, self.folder)
+        with self.assertRaisesRegex(ValueError, "^study.yaml: module ending.inner: SystemExit: 3"):
+            self.plan(metrics={"own": {"function": "ending.inner:f"}})
+
+    def test_ctrl_c_ends_a_flight_unless_it_is_ignored_as_workers_do(self):
+        plan = self.plan(**{**CONTROLLED, "controller": "study_functions:presses_ctrl_c"}, runs=1)
+        cells, flyer = design.draw(plan)[0], flight.Flyer(plan)
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        with self.assertRaises(KeyboardInterrupt):
+            flyer.row(cells)
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        self.assertEqual(flyer.row(cells)[2], "ok")
+
 
 class SameBytes(Folder):
     def test_one_worker_two_and_shards_make_one_file(self):

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import _arrays, _core
 from .._simulation import Scenario, Simulation, _Origin, _package_folder, bags
+from .faults import reason
 from .flown import Failure, Flight
 from .metrics import MetricFailure
 from .together import Together
@@ -36,7 +37,7 @@ class Observation:
 
 
 def load_function(plan, name):
-    """The function module:function of a plan, from the source that it holds."""
+    """The function module:function of a plan, from the source that it holds. :raises ImportError: if it cannot be had."""
     module_name, _, function = name.partition(":")
     key = f"_study_{module_name}"
     origin, source = plan.modules[module_name]
@@ -48,10 +49,26 @@ def load_function(plan, name):
         module = types.ModuleType(key)
         module.__file__, module._study_source = origin, source
         sys.modules[key] = module
-        exec(compile(source, origin, "exec"), module.__dict__)  # noqa: S102 - the user's own module
+        try:
+            exec(compile(source, origin, "exec"), module.__dict__)  # noqa: S102 - the user's own module
+        except BaseException as error:
+            sys.modules.pop(key, None)
+            raise ImportError(f"module {module_name}: {reason(error)}") from error
     if not callable(getattr(module, function, None)):
-        raise ValueError(f"{name}: the module has no such function")
+        raise ImportError(f"{name}: the module has no such function")
     return getattr(module, function)
+
+
+def _load_or_blame(plan, name):
+    """load_function(), or in its place a function that raises why not: each run that calls it says so."""
+    try:
+        return load_function(plan, name)
+    except ImportError as error:
+        said = str(error)
+
+    def blame(*_):
+        raise ImportError(said)
+    return blame
 
 
 class Flyer:
@@ -60,7 +77,7 @@ class Flyer:
     def __init__(self, plan):
         self.plan = plan
         self.base = _core.Scenario(plan.scenario, "scenario", "", _package_folder)
-        self.functions = {name: load_function(plan, name) for name in sorted(plan.function_names)}
+        self.functions = {name: _load_or_blame(plan, name) for name in sorted(plan.function_names)}
         self.together = None  # made when there are several
 
     def row(self, cells):
@@ -223,8 +240,8 @@ class _ClosedLoop:
         try:
             observation = Observation(self.simulation, result, self.values)
             return self._rows_of(self.function(observation, self.memory), observation.tick)
-        except Exception as error:
-            raise Failure("controller failed", f"at {self.simulation.time:g} s: {type(error).__name__}: {error}") from error
+        except BaseException as error:
+            raise Failure("controller failed", f"at {self.simulation.time:g} s: {reason(error)}") from error
 
     def _rows_of(self, commands, tick):
         if commands is None or commands == {}:

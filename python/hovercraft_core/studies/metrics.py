@@ -5,6 +5,7 @@ import numpy as np
 
 from .. import _convert, _core, _queries
 from . import signals
+from .faults import reason
 
 SIGNAL_KINDS = ("final", "min", "max", "rms")
 KINDS = (*SIGNAL_KINDS, "time_until", "contacts", "clearance", "tracking_error", "function")
@@ -127,8 +128,8 @@ class Metric:
         try:
             value = flight.function(self.function)(flight.run(), dict(flight.values))
             return None if value is None else _convert.number(value, "its result")
-        except Exception as error:
-            raise MetricFailure(f"{self.name}: {type(error).__name__}: {error}") from error
+        except BaseException as error:
+            raise MetricFailure(f"{self.name}: {reason(error)}") from error
 
     def _contacts(self, flight):
         rows, names = flight.contacts()

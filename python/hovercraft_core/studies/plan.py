@@ -13,6 +13,7 @@ from .. import _arrays, _core
 from .._simulation import Scenario, Simulation, is_bag, bags
 from . import distributions
 from .design import DESIGNS, MOST_RUNS
+from .faults import reason
 from .metrics import Metric
 from .reading import Place, load
 
@@ -222,6 +223,8 @@ class Plan:
                 found = importlib.util.find_spec(name)
             except (ImportError, ValueError):
                 found = None
+            except BaseException as error:  # of a package that it lies in
+                raise place.error(f"module {name}: {reason(error)}") from error
             if found is None or not found.has_location:
                 raise place.error(f"module {name}: must be a Python file beside the study, or one that Python finds")
             with open(found.origin, encoding="utf-8") as file:
