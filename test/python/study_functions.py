@@ -47,6 +47,11 @@ def presses_ctrl_c(observation, memory):
     return {"rear": 1.0}
 
 
+def kills_each_process(observation, memory):
+    """A controller that lets no flight end."""
+    os._exit(7)
+
+
 def slow(observation, memory):
     """A controller that takes its time: 20 ms a flight of one call."""
     time.sleep(0.02)

@@ -486,6 +486,26 @@ class SameBytes(Folder):
         self.fly(self.study(**{**CONTROLLED, "controller": "study_functions:kills_its_process"}, runs=5, seed=1, vary=None), "out")
         self.assertEqual([row["status"] for row in self.rows("out")], ["ok", "ok", "died", "ok", "ok"])
 
+    def pool(self, count, **changes):
+        """(Pool of that many workers, the rows that it takes): one death at a run is enough."""
+        self.addCleanup(setattr, workers, "MOST_DEATHS", workers.MOST_DEATHS)
+        workers.MOST_DEATHS = 1
+        plan, rows = self.plan(**{**CONTROLLED, **changes}, vary=None), []
+        return workers.Pool(plan, design.draw(plan), count, rows.extend), rows
+
+    def test_runs_that_all_kill_their_workers_are_rows_however_many(self):
+        pool, rows = self.pool(1, controller="study_functions:kills_each_process", runs=5)
+        pool.run()
+        self.assertEqual([(row[0], row[2], row[-1]) for row in rows],
+                         [(str(run), "died", "1 workers died at it, the last with exit status 7") for run in range(5)])
+
+    def test_workers_that_die_before_they_begin_end_the_study(self):
+        self.write("kills_at_once.py", "import os\nos._exit(7)\n")
+        pool, rows = self.pool(2, controller="kills_at_once:f", runs=2)
+        with self.assertRaisesRegex(RuntimeError, r"^workers end as soon as they begin \(exit status 7\)"):
+            pool.run()
+        self.assertEqual(rows, [])
+
     def test_a_run_is_flown_again_as_a_bag(self):
         path = self.study(**CONTROLLED, runs=4)
         self.fly(path, "out", "--workers", 1)

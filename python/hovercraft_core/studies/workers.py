@@ -20,10 +20,12 @@ def died_row(plan, cells, message):
 
 
 def _main(connection, plan):
-    """A worker: takes lists of rows of the design, hands over lists of rows of results, until the connection ends."""
+    """A worker: hands over an empty list when it can begin, then takes lists of rows of the design and hands over lists of rows of
+    results, until the connection ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one who started it decides
     flyer = Flyer(plan)
     try:
+        connection.send([])
         while True:
             chunk = connection.recv()
             made, last = [], time.monotonic()
@@ -45,6 +47,7 @@ class _Worker:
         self.process.start()
         other.close()
         self.chunk = collections.deque()
+        self.has_begun = False
 
     def give(self, chunk):
         self.chunk = collections.deque(chunk)
@@ -74,10 +77,10 @@ class Pool:
         self.deaths = collections.Counter()
         self.size = 1
         self.workers = [_Worker(self.context, plan) for _ in range(min(count, max(1, len(self.waiting))))]
-        self.idle_deaths = 0
+        self.idle_deaths = 0  # in a row, of workers that had not begun
 
     def run(self):
-        """Until all is flown. :raises RuntimeError: if workers die before they fly anything."""
+        """Until all is flown. :raises RuntimeError: if workers die before they begin."""
         try:
             for worker in self.workers:
                 self._give(worker)
@@ -105,6 +108,9 @@ class Pool:
             self._bury(worker)
             return
         self.idle_deaths = 0
+        worker.has_begun = True
+        if not rows:
+            return
         for _ in rows:
             worker.chunk.popleft()
         self.on_rows(rows)
@@ -116,11 +122,11 @@ class Pool:
     def _bury(self, worker):
         """A worker died: what it did not report is flown by another, run by run."""
         worker.end()
-        self.idle_deaths += 1
+        self.idle_deaths += not worker.has_begun
         if self.idle_deaths > 3 * MOST_DEATHS * len(self.workers):
             raise RuntimeError(f"workers end as soon as they begin (exit status {worker.process.exitcode})")
         left = list(worker.chunk)
-        if worker.count == 1 and left:
+        if worker.has_begun and worker.count == 1 and left:
             run = left[0][0]
             self.deaths[run] += 1
             if self.deaths[run] == MOST_DEATHS:
