@@ -215,6 +215,44 @@ class Parser(Folder):
         plan = Plan(self.write("study.yaml", "{" + text.replace('"duration": 1.0', '"duration": 1e-1') + "}"))
         self.assertEqual(plan.last_tick, 100)
 
+    def fifo(self, name):
+        path = os.path.join(self.folder, name)
+        if os.path.exists(path):
+            os.remove(path)
+        os.mkfifo(path)
+        return path
+
+    def refused(self, *arguments):
+        """What the program says, which must not block."""
+        done = subprocess.run([sys.executable, PROGRAM, *map(str, arguments)], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
+                              timeout=30, check=False)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        return done.stderr
+
+    def test_a_study_must_be_a_regular_file(self):
+        fifo, rule = self.fifo("fifo"), "must be a regular file\n"
+        self.assertEqual(self.refused(fifo, "-o", self.folder + "/out"), f"study: {fifo}: cannot be read: it is a FIFO, {rule}")
+        for path, kind in ((self.folder, "a directory"), ("/dev/zero", "a device")):
+            self.assertEqual(self.main(path, "-o", self.folder + "/out")[2], f"study: {path}: cannot be read: it is {kind}, {rule}")
+
+    def test_what_a_study_names_must_be_regular_files(self):
+        self.fifo("fifo")
+        followed = {"off": {"tracking_error": {"reference": "fifo"}}}
+        for key, changes in (("scenario", {"scenario": "fifo"}), ("commands", {"commands": "fifo"}), ("pilot", {"pilot": "fifo", "commands": None}),
+                             ("metrics: off: tracking_error: reference", {"metrics": followed})):
+            with self.assertRaisesRegex(ValueError, f"^study.yaml: {key} = fifo: it is a FIFO, must be a regular file"):
+                self.plan(**changes)
+
+    def test_what_lies_in_the_folder_of_a_study_must_be_regular_files(self):
+        path, out = self.study(runs=2), self.folder + "/out"
+        for shard in ("1/2", "2/2"):
+            self.assertEqual(self.main(path, "-o", out, "--shard", shard)[0], 0)
+        for name, how in (("shard-2-of-2.csv", "--merge"), ("runs.part.csv", "--resume"), ("runs.csv", "--resume"), ("design.csv", "--resume")):
+            told = self.refused(path, "-o", out, how) if self.fifo("out/" + name) else ""
+            self.assertEqual(told, f"study: {out}/{name}: cannot be read: it is a FIFO, must be a regular file\n")
+        self.fifo("out/study.json")
+        self.assertEqual(self.refused(path, "-o", out, "--merge"), f"study: {out}: study.json must be that of a study\n")
+
     def test_what_is_wrong_ends_the_program_with_one_line(self):
         status, _, told = self.main(self.study(runs=0), "-o", self.folder + "/out")
         self.assertEqual((status, told.count("\n")), (1, 1))

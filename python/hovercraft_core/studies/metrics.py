@@ -94,8 +94,9 @@ class Metric:
                 raise place.at("path").error("must have two points at least")
             return
         inner = place.at("reference")
+        path = context.file(inner)
         try:
-            found = _queries._trajectories(context.file(inner), "reference")
+            found = _queries._trajectories(path, "reference")
             rows = _queries._pick(found, None if len(found) == 1 else context.names[self.craft], "reference")[4]
         except ValueError as error:
             raise inner.error(str(error)) from None

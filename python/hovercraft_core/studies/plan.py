@@ -15,7 +15,7 @@ from . import distributions
 from .design import DESIGNS, MOST_RUNS
 from .faults import reason
 from .metrics import Metric
-from .reading import Place, load
+from .reading import Place, check_regular, load, open_regular
 
 REQUIRED = ("scenario", "duration", "metrics")
 OPTIONAL = ("commands", "pilot", "controller", "control_period", "runs", "seed", "design", "vary", "output_period")
@@ -66,8 +66,12 @@ def _ticks(seconds, step_ns):
 
 def _file(place, folder):
     path = os.path.join(folder, place.text())
-    if not os.path.isfile(path):
+    if not os.path.exists(path):
         raise place.error("there is no such file")
+    try:
+        check_regular(path)
+    except ValueError as error:
+        raise place.error(str(error)) from None
     return path
 
 
@@ -109,8 +113,9 @@ class Plan:
 
     def _read_scenario(self, place):
         inner = place.at("scenario")
+        path = _file(inner, self.folder)
         try:
-            scenario = Scenario.load(_file(inner, self.folder))
+            scenario = Scenario.load(path)
         except ValueError as error:
             raise inner.error(str(error)) from None
         self.scenario = scenario.to_yaml()
@@ -239,7 +244,7 @@ class Plan:
         """What says that two plans make the same rows."""
         files = []
         for path in [self.path, *self.pilots]:
-            with open(path, "rb") as file:
+            with open_regular(path) as file:
                 files.append(hashlib.sha256(file.read()).hexdigest())
         files += [hashlib.sha256(self.rows.tobytes()).hexdigest(), self.scenario, sorted(self.modules.items())]
         for metric in self.metrics:

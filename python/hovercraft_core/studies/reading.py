@@ -1,6 +1,8 @@
 """YAML as the core reads it, and checks of its values that name key and rule."""
 import math
+import os
 import re
+import stat
 
 import yaml
 
@@ -33,13 +35,33 @@ _Loader.add_constructor("tag:yaml.org,2002:float", _float)
 _Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(loader.construct_scalar(node)))
 
 
+def check_regular(path):
+    """What is no file might block, or never end. :raises ValueError: unless it is a regular file or a link to one."""
+    mode = os.stat(path).st_mode
+    if not stat.S_ISREG(mode):
+        kind = ("a directory" if stat.S_ISDIR(mode) else "a FIFO" if stat.S_ISFIFO(mode) else
+                "a socket" if stat.S_ISSOCK(mode) else "a device")
+        raise ValueError(f"it is {kind}, must be a regular file")
+
+
+def open_regular(path, mode="rb", **how):
+    """open() of a regular file. :raises ValueError: that names it, if it is none."""
+    try:
+        check_regular(path)
+    except ValueError as error:
+        raise ValueError(f"{path}: cannot be read: {error}") from None
+    return open(path, mode, **how)
+
+
 def load(path):
     """The value that a file holds. :raises ValueError: that names file and line."""
     try:
-        with open(path, encoding="utf-8") as file:
-            return yaml.load(file, Loader=_Loader)  # noqa: S506 - a SafeLoader
+        opened = open_regular(path, "r", encoding="utf-8")
     except OSError as error:
         raise ValueError(f"{path}: {error.strerror}") from None
+    try:
+        with opened as file:
+            return yaml.load(file, Loader=_Loader)  # noqa: S506 - a SafeLoader
     except UnicodeDecodeError:
         raise ValueError(f"{path}: must be UTF-8") from None
     except (yaml.YAMLError, ValueError, RecursionError) as error:

@@ -8,6 +8,7 @@ import re
 
 from .. import version
 from .design import draw
+from .reading import open_regular
 
 UNFINISHED = "runs.part.csv"
 
@@ -68,7 +69,7 @@ class Folder:
 
     def _check(self, about):
         try:
-            with open(self.file("study.json"), encoding="utf-8") as file:
+            with open_regular(self.file("study.json")) as file:
                 written = json.load(file)
         except (OSError, ValueError):
             raise ValueError(f"{self.path}: study.json must be that of a study") from None
@@ -78,9 +79,9 @@ class Folder:
 
     def design(self):
         """The rows of design.csv. :raises ValueError: if it is not what was drawn."""
-        with open(self.file("design.csv"), "rb") as file:
+        with open_regular(self.file("design.csv")) as file:
             data = file.read()
-        with open(self.file("study.json"), encoding="utf-8") as file:
+        with open_regular(self.file("study.json")) as file:
             wanted = json.load(file)["design"]
         if hashlib.sha256(data).hexdigest() != wanted:
             raise ValueError(f"{self.file('design.csv')}: was changed since it was drawn")
@@ -99,7 +100,7 @@ class Folder:
         return rows
 
     def _read(self, name):
-        with open(self.file(name), "rb") as file:
+        with open_regular(self.file(name)) as file:
             data = file.read()
         whole = data[:data.rfind(b"\n") + 1].decode("utf-8")
         if len(whole.encode()) < len(data):
