@@ -5,6 +5,7 @@
 #include "hovercraft_sim/io/csv_reader.h"
 #include "hovercraft_sim/io/number_text.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/sim/simulation.h"
 
 namespace hovercraft {
 namespace {
