@@ -13,7 +13,7 @@ function(hovercraft_add_gtest module)
     return()
   endif()
   target_link_libraries(${target} ${PROJECT_NAME}_test_core)
-  # What is tested is optimised as ever; the tests themselves compile in half of the time.
+  # What is tested is optimised as ever; the tests themselves take up to half of the time to compile.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   hovercraft_unity(${target} tests ${ARGN})
   if(NOT TARGET gtests)

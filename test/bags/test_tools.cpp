@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -424,6 +425,26 @@ TEST_F(Tools, NoOutputGoesWhereTheStandardOutputGoes) {
   EXPECT_EQ(outcome.output,
             "simulate: --output = " + folder_.file("o.csv") +
                 ": must not be where the standard output or the standard error goes\n");
+}
+
+TEST_F(Tools, SimulateWritesActuatorsAtARateOfTheirOwn) {
+  folder_.write("s.yaml", oneCraftYaml());
+  const std::string fly = "simulate {}s.yaml -d 0.1 -o {}o.csv --every 5 ";
+  EXPECT_EQ(run(fly + "--actuators {}a.csv --actuators-every 2 2>&1").status, 0);
+  const auto lines = [this](const char* name) {
+    const std::string text = contentOf(folder_.file(name));
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  EXPECT_EQ(lines("o.csv"), 1 + 3);      // ticks 0, 5, 10
+  EXPECT_EQ(lines("a.csv"), 1 + 6 * 3);  // ticks 0, 2, ... 10 of three engines
+  EXPECT_EQ(run(fly + "--actuators {}a.csv 2>&1").status, 0);
+  EXPECT_EQ(lines("a.csv"), 1 + 3 * 3);
+  EXPECT_EQ(run(fly + "--actuators-every 2 2>&1").output,
+            "simulate: --actuators-every: has a meaning with --actuators only\n");
+  EXPECT_EQ(run(fly + "--cushion-every 2 2>&1").output,
+            "simulate: --cushion-every: has a meaning with --cushion only\n");
+  EXPECT_EQ(run(fly + "--actuators {}a.csv --actuators-every=-1 2>&1").output,
+            "simulate: --actuators-every = -1: must be 1 or greater\n");
 }
 
 // What a scenario names is read too: a mesh, an image of heights.

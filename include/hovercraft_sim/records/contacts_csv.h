@@ -17,7 +17,7 @@ extern HOVERCRAFT_PUBLIC const char* const kContactKindNames[3];
 class HOVERCRAFT_PUBLIC ContactsCsvWriter : public RunObserver {
  public:
   /// @throws std::invalid_argument if the file cannot be opened for writing.
-  ContactsCsvWriter(const std::string& path);
+  explicit ContactsCsvWriter(const std::string& path);
 
   void contact(const ContactEvent& event) override;
   void close() override;
