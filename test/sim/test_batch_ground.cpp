@@ -121,10 +121,19 @@ TEST(BatchOverGround, ManyTicksAtOnceAreTheSameAsOneByOne) {
 }
 
 TEST(BatchOverGround, ShippedCraftOnCushionsFlyInABatch) {
-  for (const char* file : {"rc5", "ubc_plenum"}) {
-    const Scenario scenario = loadScenario(std::string("config/") + file + ".yaml");
+  for (const char* file : {"rc5", "ubc_plenum", "epfl", "lift_fan"}) {
+    Scenario scenario = loadScenario(std::string("config/") + file + ".yaml");
+    if (scenario.world) {  // a floor, which a batch has as a plane
+      scenario.world.reset();
+      scenario.ground.emplace().surface = PlaneScenario{0.0, Vector3::UnitZ()};
+    }
     Beside both({scenario, scenario}, availableInstructionSets().back());
-    both.push(1, {10, 0, kAllEngines, Vector3(0.0, 1.0, 0.7)});
+    Command command = {10, 0, kAllEngines, Vector3(0.0, 1.0, 0.7)};
+    for (const ActuatorScenario& actuator : scenario.vehicles[0].actuators) {
+      command.engines |= maskOf(command.thrusts.size());
+      command.thrusts.append(0.5 * actuator.motion.max_thrust);
+    }
+    both.push(1, command);
     for (Tick tick = 0; tick < 500; tick += 50) ASSERT_EQ(both.differingAfter(50), 0U) << file;
     EXPECT_EQ(both.lostCount(), 0);
   }
