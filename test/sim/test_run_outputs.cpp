@@ -78,8 +78,8 @@ TEST(Run, TellsNobodyOnceItIsOver) {
     void state(const Simulation& simulation) override {
       if (simulation.tick() == 2) throw std::invalid_argument("full");
     }
-    void applied(const Command& /*command*/) override { ++applied_; }
-    int applied_ = 0;
+    void applied(const Command& /*command*/) override { ++count; }
+    int count = 0;
   };
   Simulation simulation(scenarioOf(oneCraftYaml()));
   NoCommands commands;
@@ -89,7 +89,7 @@ TEST(Run, TellsNobodyOnceItIsOver) {
   EXPECT_THROW(run(simulation, commands, failing, plan), std::invalid_argument);
   simulation.push({simulation.tick(), 0, kAllEngines, {1.0, 0.0, 0.0}});
   simulation.step();
-  EXPECT_EQ(failing.applied_, 0);
+  EXPECT_EQ(failing.count, 0);
 }
 
 }  // namespace
