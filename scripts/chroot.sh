@@ -66,8 +66,9 @@ use_tree() {
   esac
   tree=$scratch/tree
   debootstrap --variant=minbase "$1" "$tree" ${MIRROR:+"$MIRROR"}
-  # clang-tidy 22 is in bookworm's security archive only.
-  echo "deb ${SECURITY_MIRROR:-http://deb.debian.org/debian-security} $1-security main" >> "$tree/etc/apt/sources.list"
+  # clang-tidy 22 is in bookworm's security archive only. What the indices of bullseye's name is no longer all there (November 2026): no
+  # other suite takes it.
+  [[ $1 != bookworm ]] || echo "deb ${SECURITY_MIRROR:-http://deb.debian.org/debian-security} $1-security main" >> "$tree/etc/apt/sources.list"
 }
 
 # run_in_tree COMMAND once|twice [SHARED [CACHE]]: in a checkout of HEAD in a fresh overlay of $tree. The folders are /shared and /cache inside. The mounts live in a
