@@ -146,8 +146,8 @@ bool Island::shiftApart(const IslandLink& link, double by) {
 
 BodyState Island::moved(const IslandMember& member, double from, double to,
                         const Wrench& contact) const {
-  return scene_.moved(at(member.index), member.state, inputs_[at(member.index)], {from, to},
-                      contact);
+  return scene_.moved(at(member.index), member.state, inputs_[at(member.index)],
+                      {from, to, touched_}, contact);
 }
 
 /// The earliest impact in a piece of `duration`. @param share of the distance that counts as one.
@@ -217,6 +217,12 @@ bool Island::isTouched() const {
                      [](const IslandLink& link) { return link.touching; });
 }
 
+/// Where bodies touch, explicit Euler gives way: the end of the whole step is another one.
+void Island::flySemiImplicitly() {
+  if (scene_.rules().integrator != Integrator::kEuler) return;
+  for (IslandMember& member : s_.members) member.ends_freely = false;
+}
+
 /// Nothing touches: no forces.
 void Island::leave() {
   for (IslandMember& member : s_.members) member.contact = Wrench();
@@ -235,7 +241,9 @@ bool Island::run() {
     look(h - now);
     for (IslandLink& link : s_.links) link.found = link.closest.distance;
     if (repair()) look(h - now);
-    if (isTouched()) {
+    touched_ = isTouched();
+    if (touched_) {
+      flySemiImplicitly();
       takeTwists();
       strike(now);
       press(now);

@@ -111,7 +111,10 @@ Island::FreeStep Island::freeStepOf(const IslandLink& link, const ImpactPoint& p
     step.pressed = std::max(step.pressed, std::abs(dot(point.nhat_AB_W, gained)) / h);
     lag += (slot == link.slot_b ? 1.0 : -1.0) * lagOf(s_.members[at(slot - 1)], scene_, h);
   }
-  step.gain = std::max(0.0, 2.0 * dot(point.nhat_AB_W, lag));
+  const double gain = 2.0 * dot(point.nhat_AB_W, lag);
+  // The semi-implicit one, which flies this piece, lags as much as the explicit one leads.
+  step.gain = scene_.rules().integrator == Integrator::kEuler ? std::abs(gain)
+                                                              : std::max(0.0, gain);
   return step;
 }
 

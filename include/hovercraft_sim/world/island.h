@@ -102,6 +102,7 @@ class Island {
   void endFreely(IslandMember& member, double from);
   void takeTwists();
   bool isTouched() const;
+  void flySemiImplicitly();
   void leave();
   // Velocities at the start of the piece, or at its end without contact. A slot is 0 for what is
   // fixed, else 1 + the index of the member.
@@ -114,6 +115,7 @@ class Island {
   IslandScratch& s_;
   std::vector<ContactRecord>& records_;
   double now_ = 0.0;      // s, from the start of the step: where the piece begins
+  bool touched_ = false;  // some pair touches in this piece
   bool stuck_ = false;    // the last piece had no length
   bool plastic_ = false;  // the bound on bounces is reached
 };
