@@ -84,8 +84,9 @@ bool ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& poin
     solver.add(asked);
   }
   const auto count = static_cast<int>(chosen_.size());
+  const double left_over = std::max(residual_ * scale, kLeftResidual * may_leave_);
   solver.solve({std::max(kMinImpactSweeps, kMaxImpactRelaxations / std::max(1, count)), 1,
-                std::max(residual_ * scale, kLeftResidual * may_leave_)});
+                left_over, std::max(kLeapPrecision * scale, left_over)});
   double gained = 0.0;
   double rounding = 0.0;
   for (std::size_t k = 0; k < chosen_.size(); ++k) {

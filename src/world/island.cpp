@@ -217,9 +217,9 @@ bool Island::isTouched() const {
                      [](const IslandLink& link) { return link.touching; });
 }
 
-/// Where bodies touch, explicit Euler gives way: the end of the whole step is another one.
-void Island::flySemiImplicitly() {
-  if (scene_.rules().integrator != Integrator::kEuler) return;
+/// Where bodies touch, both Eulers give way: the end of the whole step is another one.
+void Island::leaveEuler() {
+  if (!isEuler(scene_.rules().integrator)) return;
   for (IslandMember& member : s_.members) member.ends_freely = false;
 }
 
@@ -243,7 +243,7 @@ bool Island::run() {
     if (repair()) look(h - now);
     touched_ = isTouched();
     if (touched_) {
-      flySemiImplicitly();
+      leaveEuler();
       takeTwists();
       strike(now);
       press(now);

@@ -6,7 +6,6 @@
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/world/island.h"
-#include "hovercraft_sim/world/island_motion.h"
 
 /// The forces of the resting contacts of an island.
 
@@ -133,13 +132,6 @@ bool Island::addRestPoints(IslandLink& link, double left) {
   const double still = restSpeed(link);
   const double parting = std::min(still, kRestParting * rules.tolerance / left);
   const double wanted = kRestGap * rules.tolerance;
-  double lag = 0.0;  // m/s
-  if (link.slot_a != 0) {
-    lag -= dot(link.manifold.nhat_AB_W, lagOf(s_.members[at(link.slot_a - 1)], scene_, left));
-  }
-  if (link.slot_b != 0) {
-    lag += dot(link.manifold.nhat_AB_W, lagOf(s_.members[at(link.slot_b - 1)], scene_, left));
-  }
   const double near = kKnownPoint * scene_.hullOf(link.memory.a).data().radius;
   RememberedForces forces(link.memory, poseOfIndex(link.memory.a), near);
   for (int i = 0; i < link.manifold.count; ++i) {
@@ -147,10 +139,9 @@ bool Island::addRestPoints(IslandLink& link, double left) {
     const Vector3 v =
         velocityNow(link.slot_b, contact.p_WC) - velocityNow(link.slot_a, contact.p_WC);
     const double speed = dot(link.manifold.nhat_AB_W, v);
-    // What parts flies on its own, and rests when it has come back, unless the integrator brings it
-    // nearer at once; what comes fast is an impact, in its time.
-    if (speed + std::min(0.0, lag) > parting || (contact.gap > rules.tolerance && speed < -still))
-      continue;
+    // What parts flies on its own, and rests when it has come back; what comes fast is an impact, in
+    // its time.
+    if (speed > parting || (contact.gap > rules.tolerance && speed < -still)) continue;
     ContactDemand asked;
     asked.a = link.slot_a;
     asked.b = link.slot_b;
@@ -188,8 +179,10 @@ void Island::press(double now) {
   for (IslandLink& link : s_.links) any = addRestPoints(link, left) || any;
   const auto points = static_cast<int>(s_.solver.pointCount());
   if (any) {
+    const double left_over =
+        kRestResidual * kRestGap * scene_.rules().tolerance / scene_.rules().step;
     s_.solver.solve({std::max(kMinRestSweeps, kMaxRestRelaxations / points), kLeastRestSweeps,
-                     kRestResidual * kRestGap * scene_.rules().tolerance / scene_.rules().step});
+                     left_over, kLeapResidual * left_over});
   }
   takeForces(now, left);
 }

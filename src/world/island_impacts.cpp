@@ -4,7 +4,6 @@
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/world/island.h"
-#include "hovercraft_sim/world/island_motion.h"
 
 /// The impacts of the bodies of an island.
 
@@ -104,17 +103,12 @@ void Island::addImpactPoints() {
 Island::FreeStep Island::freeStepOf(const IslandLink& link, const ImpactPoint& point) const {
   FreeStep step;
   const double h = scene_.rules().step;
-  Vector3 lag = Vector3::Zero();
   for (const std::int32_t slot : {link.slot_a, link.slot_b}) {
     if (slot == 0) continue;
     const Vector3 gained = velocityAtEnd(slot, point.p_WC) - velocityNow(slot, point.p_WC);
     step.pressed = std::max(step.pressed, std::abs(dot(point.nhat_AB_W, gained)) / h);
-    lag += (slot == link.slot_b ? 1.0 : -1.0) * lagOf(s_.members[at(slot - 1)], scene_, h);
   }
-  const double gain = 2.0 * dot(point.nhat_AB_W, lag);
-  // The semi-implicit one, which flies this piece, lags as much as the explicit one leads.
-  step.gain = scene_.rules().integrator == Integrator::kEuler ? std::abs(gain)
-                                                              : std::max(0.0, gain);
+  if (scene_.rules().integrator == Integrator::kEuler) step.gain = step.pressed * h;
   return step;
 }
 

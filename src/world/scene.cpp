@@ -153,9 +153,8 @@ BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInput
   }
   const DrivenBody system = {bodies_[body].model, thrusts, inputs.environment,
                              inputs.is_loaded || is_pressed ? &load : nullptr, fan_speeds};
-  const bool is_explicit = rules_.integrator == Integrator::kEuler;
   const Integrator integrator =
-      is_explicit && piece.in_contact ? Integrator::kSemiImplicitEuler : rules_.integrator;
+      piece.in_contact && isEuler(rules_.integrator) ? Integrator::kHeun : rules_.integrator;
   return std::visit(
       [&](const auto& start) -> BodyState {
         return bodyStep<decltype(start.orientation)>(integrator, start, system,

@@ -209,8 +209,11 @@ bool World::stepGroups(const std::vector<StepInputs>& inputs, const std::vector<
 /// kNone.
 int World::takeTravel(const std::vector<BodyState>& states, const std::vector<BodyState>& ends) {
   for (std::size_t i = 0; i < states.size(); ++i) {
+    // Not less than the tolerance: what rests moves by rounding, any share of which is more than
+    // none.
     extents_[i].travel =
-        kTravelReserve * scene_.travelOf(i, states[i], ends[i], scene_.rules().step);
+        kTravelReserve * scene_.travelOf(i, states[i], ends[i], scene_.rules().step) +
+        Vector3::Constant(scene_.rules().tolerance);
     if (!isInReach(ends[i]) || !(extents_[i].travel.maxCoeff() <= kFarthest)) {
       return static_cast<int>(i);
     }

@@ -29,9 +29,9 @@ namespace {
 
 const std::string kFolder = "test/data/recordings/";
 
-const std::string kOlder = "recorded by physics version 1, replayed by 2: ";
+const std::string kOlder = "recorded by physics version 1, replayed by 3: ";
 
-// Physics version 2 is another one of contact alone.
+// Physics versions 2 and 3 are others of contact alone.
 TEST(OlderRecordings, WithoutContactReplayIdentically) {
   std::string verdict;
   EXPECT_EQ(replayBag({kFolder + "format_1_matrix.bag", "", {}}, verdict), 0) << verdict;

@@ -26,7 +26,7 @@ TEST(Version, IsThatOfThePackage) {
   const std::string tag = std::string("<version>") + version() + "</version>";
   EXPECT_NE(contentOf("package.xml").find(tag), std::string::npos) << tag;
   EXPECT_EQ(versionText("replay"), std::string("replay of hovercraft_sim ") + version() +
-                                       " (commit " + commit() + "), physics version 2");
+                                       " (commit " + commit() + "), physics version 3");
 }
 
 std::array<int, 3> numbersOf(const std::string& text) {
@@ -94,13 +94,13 @@ TEST(Version, StandsInAScenarioThatIsWrittenAndOfAnyOtherItIsRead) {
 }
 
 TEST(PhysicsVersion, StandsFirstInAScenarioThatIsWritten) {
-  EXPECT_EQ(toYaml(parsed(validScenario())).rfind("physics_version: 2\nsoftware: ", 0), 0U);
+  EXPECT_EQ(toYaml(parsed(validScenario())).rfind("physics_version: 3\nsoftware: ", 0), 0U);
 }
 
 TEST(PhysicsVersion, OfAScenarioMustBeThatOfTheBuild) {
-  EXPECT_EQ(complaintAbout("physics_version: 2\n" + validScenario()), "nothing was thrown");
+  EXPECT_EQ(complaintAbout("physics_version: 3\n" + validScenario()), "nothing was thrown");
   const std::string rule =
-      ": must be 2, that of this build: with another one the same scenario gives other bits";
+      ": must be 3, that of this build: with another one the same scenario gives other bits";
   EXPECT_EQ(complaintAbout("physics_version: 1\n" + validScenario()),
             "test.yaml: physics_version = 1" + rule);
   EXPECT_EQ(complaintAbout("physics_version: 0\n" + validScenario()),
@@ -127,11 +127,11 @@ TEST(PhysicsVersion, OfARecordingMayBeOlder) {
 TEST(SnapshotFormat, OneOfFormat1HasNoVersions) {
   const Simulation simulation(parsed(validScenario()));
   const std::string text = toSnapshot(simulation);
-  const std::string head = "format: 2\nphysics_version: 2\ntick: 0\n";
+  const std::string head = "format: 2\nphysics_version: 3\ntick: 0\n";
   ASSERT_EQ(text.rfind(head, 0), 0U) << text;
   EXPECT_EQ(complaintAboutSnapshot(text), "nothing was thrown");
   EXPECT_EQ(complaintAboutSnapshot(with(text, head, "format: 2\ntick: 0\n")),
-            "snap.yaml: physics_version: must be 2, that of this build: the run would go on with "
+            "snap.yaml: physics_version: must be 3, that of this build: the run would go on with "
             "other bits");
   const std::string old = with(text, head, "tick: 0\n");
   parseSnapshot(old, "snap.yaml", parsed(validScenario()), true);
@@ -143,8 +143,8 @@ TEST(SnapshotFormat, AnotherFormatAndAnotherPhysicsAreRefused) {
   EXPECT_EQ(complaintAboutSnapshot(with(text, "format: 2\n", "format: 3\n")),
             "snap.yaml: format: must be 2 to 2");
   EXPECT_EQ(complaintAboutSnapshot(
-                with(text, "format: 2\nphysics_version: 2\n", "format: 2\nphysics_version: 3\n")),
-            "snap.yaml: physics_version: must be 2, that of this build: the run would go on with "
+                with(text, "format: 2\nphysics_version: 3\n", "format: 2\nphysics_version: 4\n")),
+            "snap.yaml: physics_version: must be 3, that of this build: the run would go on with "
             "other bits");
 }
 

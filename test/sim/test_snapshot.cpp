@@ -160,7 +160,7 @@ TEST(Snapshot, WhatIsNoSnapshotIsRefused) {
   EXPECT_NE(complaintAbout("tick: [", scenario).find("snap.yaml: it is not the YAML of a snapshot"),
             std::string::npos);
   EXPECT_EQ(complaintAbout("root:x:0:0\n", scenario), "snap.yaml: it is no snapshot");
-  EXPECT_NE(complaintAbout("format: 2\nphysics_version: 2\ntick: 5\n", scenario)
+  EXPECT_NE(complaintAbout("format: 2\nphysics_version: 3\ntick: 5\n", scenario)
                 .find("snap.yaml: scenario: the key is missing"),
             std::string::npos);
 }

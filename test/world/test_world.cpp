@@ -83,6 +83,30 @@ TEST(World, TenStackedBoxesStandForAMinute) {
   EXPECT_EQ(world.world().stalls(), 0);
 }
 
+// A millimetre-exact tower has nothing to sway by; one whose boxes lie 2 cm off each other does.
+TEST(World, TwentyBoxesOffEachOtherStandStill) {
+  TestWorld world;
+  world.material() = {0.0, 0.5, false};
+  addFloor(world);
+  for (int i = 0; i < 20; ++i) {
+    const double x = i % 2 == 0 ? -0.01 : 0.01;
+    const double y = i / 2 % 2 == 0 ? -0.01 : 0.01;
+    world.addBox(1.0, Vector3::Constant(0.2), Vector3(x, y, 0.1 + 0.2 * i), atRest());
+  }
+  world.watch = false;
+  double fastest = 0.0;
+  for (int i = 0; i < 500; ++i) {
+    world.step(1);
+    if (i < 100) continue;
+    for (std::size_t k = 0; k < 20; ++k) {
+      fastest = std::max(fastest, norm(world.twist(k).v_WB));
+    }
+  }
+  EXPECT_LT(fastest, 1e-6);
+  EXPECT_GT(world.world().leastGap(world.states), -kEpsilon);
+  EXPECT_EQ(world.world().stalls(), 0);
+}
+
 TEST(World, ABallComesToRestAfterABoundedNumberOfImpacts) {
   TestWorld world;
   world.material() = {0.5, 0.5, false};

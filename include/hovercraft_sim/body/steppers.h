@@ -33,6 +33,11 @@ enum class Stage { kStart, kMiddle, kEnd };
 
 enum class Integrator { kEuler, kSemiImplicitEuler, kHeun, kRungeKutta4, kLie4 };
 
+/// Whether it is of first order: the explicit or the semi-implicit Euler.
+constexpr bool isEuler(Integrator integrator) {
+  return integrator == Integrator::kEuler || integrator == Integrator::kSemiImplicitEuler;
+}
+
 template <class Orientation>
 StateDerivative<Orientation> operator+(const StateDerivative<Orientation>& a,
                                        const StateDerivative<Orientation>& b) {

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/contact/equality_solver.h"
 
 namespace hovercraft {
 
@@ -47,6 +49,8 @@ class ContactSolver {
     int sweeps = 0;  // at most
     int least_sweeps = 1;
     double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
+    double leap_above = std::numeric_limits<double>::infinity();  // m/s: a change beyond it is
+                                                                  // solved at once, where it can
   };
 
   /// Forgets all bodies and points.
@@ -105,6 +109,9 @@ class ContactSolver {
     bool b_is_fixed;  // B needs no arithmetic: what it would add is 0
   };
 
+  /// What a point is taken for in a leap.
+  enum class Kind : std::uint8_t { kParts, kSlides, kHolds };
+
   /// What a sweep changed.
   struct Change {
     double largest = 0.0;  // m/s, of the points
@@ -142,12 +149,28 @@ class ContactSolver {
   double relax(Point& point);
   Change sweep();
   void goOn(double share);
+  bool canLeap();
+  bool leap(double tolerance);
+  void guessKinds(double tolerance);
+  void addEqualities();
+  bool takeEqualities();
+  bool mendKinds(double tolerance);
+  static bool isHeld(const Point& point);
+  static double shareAllowed(const Point& point, Kind kind, const Vector3& change);
+  void keepImpulses();
+  void restoreImpulses();
 
   std::vector<ContactBody> bodies_;
   std::vector<bool> is_fixed_;  // of each body
   std::vector<Point> points_;
   std::vector<Vector3> before_;  // N s: the impulses before the last sweep
   std::vector<Vector3> search_;  // N s
+  EqualitySolver equalities_;
+  std::vector<Vector3> changes_;    // N s, of the points in a pass of a leap
+  std::vector<Kind> kinds_;         // of each point
+  std::vector<Twist> held_twists_;  // of the bodies, while rows are made
+  std::vector<Vector3> kept_;       // N s: the impulses before a leap
+  std::vector<Twist> kept_twists_;  // of the bodies
 };
 
 }  // namespace hovercraft

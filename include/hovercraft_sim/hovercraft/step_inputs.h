@@ -31,7 +31,7 @@ struct StepInputs {
 struct StepPiece {
   double from = 0.0;
   double to = 0.0;
-  bool in_contact = false;  // explicit Euler gives way to the semi-implicit (doc/contact.md)
+  bool in_contact = false;  // both Eulers give way to Heun's method (doc/contact.md)
 };
 
 /// One body during one piece of a step: the system that a stepper integrates.

@@ -105,6 +105,9 @@ constexpr double kRestParting = 1.0;
 /// Least sweeps (-) of resting contacts: from step to step they bring a stack to its exact forces.
 constexpr int kLeastRestSweeps = 4;
 
+/// Change of a velocity (m/s) in a sweep that is rounding: then no more sweeps are needed.
+constexpr double kNoChange = 1e-13;
+
 /// Bound on how often a point is relaxed in one solve of resting contacts, all points together. The
 /// solve starts from the forces of the last step, so that a stack at rest needs a sweep or two; a
 /// stack of ten that was never solved needs a thousand.
@@ -112,6 +115,31 @@ constexpr int kMaxRestRelaxations = 40000;
 
 /// Sweeps (-) that resting contacts of many points get in any case.
 constexpr int kMinRestSweeps = 30;
+
+/// Weight (-) of what equal velocities miss against the length of the change, and turns of the
+/// method of multipliers: each makes the miss some 1e8 times the least eigenvalue of the rows
+/// smaller; that of a stack of 20 boxes is about 1e-5.
+constexpr double kEqualityPenalty = 1e8;
+constexpr int kEqualityTurns = 3;
+
+/// Sweeps (-) before contacts whose kinds are guessed from them are solved at once, and between two
+/// such guesses.
+constexpr int kSweepsBeforeLeap = 4;
+/// Sweeps (-) between two guesses from which on it is left to the sweeps: each guess that comes to
+/// no end doubles them.
+constexpr int kLongestWait = 16;
+/// What a leap may leave (-, of what sweeps may leave).
+constexpr double kLeapResidual = 1e-3;
+/// What a leap may leave of an impact (-, of the fastest point).
+constexpr double kLeapPrecision = 1e-9;
+/// Bodies (-) from which on that is done: fewer are solved by as many sweeps.
+constexpr std::ptrdiff_t kLeastLeapBodies = 3;
+/// Share (-) of the bound of friction up to which a point is guessed to hold.
+constexpr double kHeldShare = 0.999;
+/// Bound on the corrections of a guess: the points that pull let go, those that slide slide.
+constexpr int kMaxLeapPasses = 8;
+/// Products of 6 x 6 (-, of the points) that a leap may take: some 30 sweeps' worth.
+constexpr std::size_t kMostLeapWork = 4;
 
 /// Gap (-, of the contact tolerance) below which a resting contact is repaired: as long as there is
 /// more, the solver brings it back by itself.

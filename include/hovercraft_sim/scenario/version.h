@@ -9,7 +9,7 @@ namespace hovercraft {
 
 /// Raised with every change after which the same scenario and commands give other bits: with each
 /// recorded hash that changes (test/determinism/hashes.txt). Recordings and snapshots carry it.
-constexpr std::int64_t kPhysicsVersion = 2;
+constexpr std::int64_t kPhysicsVersion = 3;
 
 /// Of what toSnapshot() writes; a snapshot without one has format 1.
 constexpr std::int64_t kSnapshotFormat = 2;
@@ -25,7 +25,7 @@ HOVERCRAFT_PUBLIC const char* commit();
 /// `software`.
 HOVERCRAFT_PUBLIC std::string softwareText();
 
-/// What programs answer to --version: "NAME of " softwareText() ", physics version 2".
+/// What programs answer to --version: "NAME of " softwareText() ", physics version 3".
 HOVERCRAFT_PUBLIC std::string versionText(const std::string& program);
 
 /// Prints versionText() if --version is among the arguments: for a node, which has no other

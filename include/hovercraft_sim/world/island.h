@@ -102,7 +102,7 @@ class Island {
   void endFreely(IslandMember& member, double from);
   void takeTwists();
   bool isTouched() const;
-  void flySemiImplicitly();
+  void leaveEuler();
   void leave();
   // Velocities at the start of the piece, or at its end without contact. A slot is 0 for what is
   // fixed, else 1 + the index of the member.
