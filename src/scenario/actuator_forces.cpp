@@ -92,7 +92,6 @@ std::vector<Rotor> rotorsOf(const VehicleScenario& vehicle) {
   for (std::size_t id = 0; id < vehicle.engines.size(); ++id) add(id, vehicle.engines[id], true);
   for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
     const ActuatorScenario& actuator = vehicle.actuators[i];
-    if (actuator.kind == ActuatorKind::kRudder) continue;
     add(kFirstActuator + i, actuator.motion, actuator.kind == ActuatorKind::kFan);
   }
   return rotors;

@@ -75,10 +75,10 @@ PlantActuator parsePlantActuator(const std::string& name, const ConfigReader& re
   return actuator;
 }
 
-/// What the plant knows of one; none of a lift fan.
+/// What the plant knows of one; none of what does not push.
 std::optional<PlantActuator> plantActuatorOf(const ActuatorScenario& actuator,
                                              const VehicleScenario& vehicle) {
-  if (actuator.kind == ActuatorKind::kLiftFan) return std::nullopt;
+  if (traitsOf(actuator.kind).push == ActuatorPush::kNone) return std::nullopt;
   const Vector3 arm = actuator.motion.p_HE - vehicle.mass_properties.p_HB;
   const Vector3& direction = actuator.motion.direction;
   PlantActuator known;

@@ -10,6 +10,33 @@ namespace hovercraft {
 
 enum class ActuatorKind { kFan, kPropeller, kLiftFan, kRudder };
 
+/// Which way a greater level pushes the craft: along its direction, along hinge x direction, or not
+/// by itself.
+enum class ActuatorPush { kAlong, kAcross, kNone };
+
+/// What is said of a kind; what it does is in actuator_parser.cpp and actuator_forces.cpp.
+struct ActuatorTraits {
+  const char* name;   // in scenarios and messages; none: there is no such kind
+  const char* level;  // the word for a command that is the level itself
+  const char* unit;   // of the level; empty: a share
+  ActuatorPush push;
+};
+
+/// One kind is one line here.
+constexpr ActuatorTraits traitsOf(ActuatorKind kind) {
+  switch (kind) {
+    case ActuatorKind::kFan:
+      return {"fan", "newton", "N", ActuatorPush::kAlong};
+    case ActuatorKind::kPropeller:
+      return {"propeller", "per_second", "1/s", ActuatorPush::kAlong};
+    case ActuatorKind::kLiftFan:
+      return {"lift_fan", "share", "", ActuatorPush::kNone};
+    case ActuatorKind::kRudder:
+      return {"rudder", "radian", "rad", ActuatorPush::kAcross};
+  }
+  return {nullptr, nullptr, nullptr, ActuatorPush::kNone};
+}
+
 /// On which topic an engine or another actuator is commanded by itself, and as what.
 struct CommandTopic {
   std::string name;         // relative to the craft's namespace, or absolute; empty: by its name
