@@ -57,7 +57,7 @@ RudderForce rudderOf(std::size_t id, const ActuatorScenario& rudder,
 
 std::vector<Force> forcesOf(const VehicleScenario& vehicle) {
   std::vector<Force> forces;
-  if (vehicle.polar) forces.emplace_back(PolarForce{*vehicle.polar});
+  for (const DragLaw& law : vehicle.drag_laws) forces.emplace_back(DragForce{law});
   for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
     const ActuatorScenario& actuator = vehicle.actuators[i];
     const std::size_t id = kFirstActuator + i;

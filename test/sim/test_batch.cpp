@@ -309,7 +309,7 @@ TEST(Batch, RefusesByNameInWhatARunMustNotDiffer) {
             "run 1: gusts" + rule);
   EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().actuators.resize(1); }),
             "run 1: the names of the actuators" + rule);
-  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().polar = DragPolar(); }),
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().drag_laws = {DragPolar()}; }),
             "run 1: actuators and polar: their kinds and fans" + rule);
   EXPECT_EQ(refusalOfSecond([](Scenario& s) {
               s.vehicles.front().engines[1].rotor = {1e-5, 900.0, 1.0};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -56,6 +57,14 @@ struct DragPolar {
     const double pressure = 0.5 * air_density * square;
     return {Vector3(-(pressure * area_x) * sums.x(), -(pressure * area_y) * sums.y(), 0.0),
             Vector3(0.0, 0.0, -(pressure * area_y) * (length * sums.z()))};
+  }
+
+  /// By quadratic drag of each axis, N s²/m²: what it has ahead and to the side.
+  Vector3 quadraticDrag() const {
+    const double half = 0.5 * air_density;
+    const double ahead = coefficients(1.0, 0.0).x();
+    const double sideways = coefficients(0.0, 1.0).y();
+    return {half * area_x * std::max(0.0, ahead), half * area_y * std::max(0.0, sideways), 0.0};
   }
 };
 

@@ -8,11 +8,11 @@
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/hovercraft/actuator_array.h"
-#include "hovercraft_sim/hovercraft/drag_polar.h"
+#include "hovercraft_sim/hovercraft/drag_laws.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
-/// The forces of actuators besides the three engines, and of a drag polar. Each is a value that
+/// The forces of actuators besides the three engines, and of laws of drag. Each is a value that
 /// takes what holds at a stage of a step and gives a wrench about the centre of mass in B: + - * /
 /// and sqrt only, no memory. All places and directions are in B.
 
@@ -113,14 +113,14 @@ struct RudderForce {
   }
 };
 
-/// The drag of the hull by a polar.
-struct PolarForce {
-  DragPolar polar;
+/// The drag of the hull by a law.
+struct DragForce {
+  DragLaw law;
 
-  Wrench wrench(const ForceInputs& inputs) const { return polar.wrenchInBody(inputs.u_B); }
+  Wrench wrench(const ForceInputs& inputs) const { return wrenchInBody(law, inputs.u_B); }
 };
 
-using Force = std::variant<FanForce, PropellerForce, RudderForce, PolarForce>;
+using Force = std::variant<FanForce, PropellerForce, RudderForce, DragForce>;
 
 /// Their sum, in their order. Out of line, so that a craft without any keeps its registers.
 HOVERCRAFT_PUBLIC Wrench wrenchInBody(const std::vector<Force>& forces, const ForceInputs& inputs);

@@ -16,7 +16,7 @@
 #include "hovercraft_sim/cushion/height_map.h"
 #include "hovercraft_sim/cushion/pads.h"
 #include "hovercraft_sim/hovercraft/drag.h"
-#include "hovercraft_sim/hovercraft/drag_polar.h"
+#include "hovercraft_sim/hovercraft/drag_laws.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/gusts.h"
 #include "hovercraft_sim/math/time.h"
@@ -100,7 +100,7 @@ struct VehicleScenario {
   std::array<bool, kEngineCount> has_engine = {true, true, true};  // else its limits are 0
   std::vector<ActuatorScenario> actuators;                         // by name; ids from 3 on
   Drag drag;
-  std::optional<DragPolar> polar;  // besides it
+  std::vector<DragLaw> drag_laws;  // besides it, in the order of DragLaw
   std::optional<CushionParameters> cushion;
   std::optional<HullScenario>
       hull;  // none: the convex hull of the parts, in a scenario with a world or a ground
