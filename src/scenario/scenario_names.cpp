@@ -56,8 +56,7 @@ const std::vector<std::string>& tfSourceNames() {
 }
 
 const std::vector<std::string>& sensorKindNames() {
-  static const std::vector<std::string> names = {"imu", "gnss", "odometry", "magnetometer",
-                                                 "laser"};
+  static const std::vector<std::string> names = namesOfKinds<SensorKind>();
   return names;
 }
 

@@ -22,7 +22,8 @@
 
 namespace hovercraft_ros {
 
-constexpr const char* kOdometryTopic = "odometry";
+constexpr const char* kOdometryTopic =
+    hovercraft::traitsOf(hovercraft::SensorKind::kOdometry).topic;
 constexpr const char* kOdometryFrame = "odom";
 
 /// What one sensor tells: filled again with each sample.
@@ -30,7 +31,7 @@ struct SensorMessage {
   hovercraft::SensorParameters parameters;
   std::string topic;           // relative to the craft's namespace
   std::string velocity_topic;  // of GNSS; else empty
-  /// In the order of SensorKind.
+  /// One kind of sensor is one alternative, in the order of SensorKind.
   std::variant<sensor_msgs::Imu, sensor_msgs::NavSatFix, nav_msgs::Odometry,
                sensor_msgs::MagneticField, sensor_msgs::LaserScan>
       message;

@@ -27,10 +27,14 @@ struct NoiseParameters {
   Vector3 offset = Vector3::Zero();    // u
 };
 
+// Of each kind: noises() in the order of the channels of its traits.
+
 struct ImuParameters {
   NoiseParameters gyroscope;            // rad/s
   NoiseParameters accelerometer;        // m/s²
   Vector3 gravity_W = Vector3::Zero();  // m/s²: what a body at rest does not fall with
+
+  std::vector<NoiseParameters> noises() const { return {gyroscope, accelerometer}; }
 };
 
 /// Latitude and longitude in degrees, as NavSatFix has them.
@@ -40,17 +44,23 @@ struct GnssParameters {
   double altitude = 0.0;     // m above the ellipsoid, of the same
   NoiseParameters position;  // m
   NoiseParameters velocity;  // m/s
+
+  std::vector<NoiseParameters> noises() const { return {position, velocity}; }
 };
 
 struct OdometryParameters {
   NoiseParameters linear;   // m/s
   NoiseParameters angular;  // rad/s
   bool planar = false;      // noise in x, y and yaw only
+
+  std::vector<NoiseParameters> noises() const { return {linear, angular}; }
 };
 
 struct MagnetometerParameters {
   Vector3 field_W = Vector3::Zero();  // T
   NoiseParameters field;              // T
+
+  std::vector<NoiseParameters> noises() const { return {field}; }
 };
 
 /// Beams in the xy plane of the sensor, from angle_min to angle_max, counter-clockwise.
@@ -63,10 +73,47 @@ struct LaserParameters {
   NoiseParameters range;   // m; each beam has a white noise of its own, all share one bias
 
   double increment() const { return beams > 1 ? (angle_max - angle_min) / (beams - 1) : 0.0; }
+  std::vector<NoiseParameters> noises() const { return {range}; }
 };
 
 /// In the order of the alternatives of SensorParameters::model.
 enum class SensorKind { kImu, kGnss, kOdometry, kMagnetometer, kLaser };
+
+/// What of its place a sensor is told.
+enum class SensorPlace { kNone, kPosition, kPositionAndAxes };
+
+/// What is said of a kind. Names in one text have a space between them.
+struct SensorTraits {
+  const char* name;                      // in scenarios; none: there is no such kind
+  const char* topic;                     // of the first one of a craft, relative to its namespace
+  SensorPlace place;                     // which keys it has
+  const char* channels;                  // of its noise, those with keys of their own
+  const char* fields;                    // the numbers of a sample; empty: sampleFields() says
+  const char* velocity_topic = nullptr;  // of a second message, its velocity; none
+};
+
+/// One kind is one line here.
+constexpr SensorTraits traitsOf(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::kImu:
+      return {"imu", "imu/data", SensorPlace::kPositionAndAxes, "gyroscope accelerometer",
+              "wx wy wz ax ay az"};
+    case SensorKind::kGnss:
+      return {"gnss",
+              "fix",
+              SensorPlace::kPosition,
+              "position velocity",
+              "latitude longitude altitude v_east v_north v_up",
+              "fix_velocity"};
+    case SensorKind::kOdometry:
+      return {"odometry", "odometry", SensorPlace::kNone, "linear angular", ""};
+    case SensorKind::kMagnetometer:
+      return {"magnetometer", "magnetic_field", SensorPlace::kPositionAndAxes, "field", "mx my mz"};
+    case SensorKind::kLaser:
+      return {"laser", "scan", SensorPlace::kPositionAndAxes, "range", ""};
+  }
+  return {nullptr, nullptr, SensorPlace::kNone, nullptr, nullptr};
+}
 
 /// One sensor of a craft, checked when it was read (sensor_parser.h).
 struct SensorParameters {
@@ -83,6 +130,13 @@ struct SensorParameters {
 
   SensorKind kind() const { return static_cast<SensorKind>(model.index()); }
 };
+
+/// The topics of the first sensor of each kind, and of its velocity, relative to the craft's
+/// namespace.
+HOVERCRAFT_PUBLIC std::vector<std::string> sensorTopics();
+
+/// The channels of a kind that have keys, in the order of noises().
+std::vector<std::string> noiseChannels(SensorKind kind);
 
 /// The numbers of one sample of a kind, by name: the columns of its CSV file. Of a laser the
 /// ranges.
