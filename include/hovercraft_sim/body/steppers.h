@@ -33,6 +33,7 @@ enum class Stage { kStart, kMiddle, kEnd };
 
 enum class Integrator { kEuler, kSemiImplicitEuler, kHeun, kRungeKutta4, kLie4 };
 
+/// Component by component.
 template <class Orientation>
 StateDerivative<Orientation> operator+(const StateDerivative<Orientation>& a,
                                        const StateDerivative<Orientation>& b) {

@@ -19,8 +19,8 @@ namespace hovercraft {
 /// by Chebyshev's recursion from u_x/V and u_y/V: no trigonometric function, and -β mirrors β to
 /// the last bit.
 struct DragPolar {
-  static constexpr std::size_t kTerms = 6;
-  using Terms = std::array<double, kTerms>;
+  static constexpr std::size_t kTerms = 6;   // terms of each sum
+  using Terms = std::array<double, kTerms>;  // its coefficients
 
   double air_density = kStandardAirDensity;  // kg/m³
   double area_x = 0.0;                       // m², that the bow shows

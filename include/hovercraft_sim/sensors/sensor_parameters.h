@@ -27,25 +27,23 @@ struct NoiseParameters {
   Vector3 offset = Vector3::Zero();    // u
 };
 
-// Of each kind: noises() in the order of the channels of its traits.
-
 struct ImuParameters {
   NoiseParameters gyroscope;            // rad/s
   NoiseParameters accelerometer;        // m/s²
   Vector3 gravity_W = Vector3::Zero();  // m/s²: what a body at rest does not fall with
 
-  std::vector<NoiseParameters> noises() const { return {gyroscope, accelerometer}; }
+  std::vector<NoiseParameters> noises() const { return {gyroscope, accelerometer}; }  // by channel
 };
 
 /// Latitude and longitude in degrees, as NavSatFix has them.
 struct GnssParameters {
-  double latitude_deg = 0.0;  // of the origin of W, whose x is east and y north
-  double longitude_deg = 0.0;
-  double altitude = 0.0;     // m above the ellipsoid, of the same
-  NoiseParameters position;  // m
-  NoiseParameters velocity;  // m/s
+  double latitude_deg = 0.0;   // of the origin of W, whose x is east and y north
+  double longitude_deg = 0.0;  // of the same
+  double altitude = 0.0;       // m above the ellipsoid, of the same
+  NoiseParameters position;    // m
+  NoiseParameters velocity;    // m/s
 
-  std::vector<NoiseParameters> noises() const { return {position, velocity}; }
+  std::vector<NoiseParameters> noises() const { return {position, velocity}; }  // by channel
 };
 
 struct OdometryParameters {
@@ -53,30 +51,32 @@ struct OdometryParameters {
   NoiseParameters angular;  // rad/s
   bool planar = false;      // noise in x, y and yaw only
 
-  std::vector<NoiseParameters> noises() const { return {linear, angular}; }
+  std::vector<NoiseParameters> noises() const { return {linear, angular}; }  // by channel
 };
 
 struct MagnetometerParameters {
   Vector3 field_W = Vector3::Zero();  // T
   NoiseParameters field;              // T
 
-  std::vector<NoiseParameters> noises() const { return {field}; }
+  std::vector<NoiseParameters> noises() const { return {field}; }  // by channel
 };
 
 /// Beams in the xy plane of the sensor, from angle_min to angle_max, counter-clockwise.
 struct LaserParameters {
   double angle_min = 0.0;  // rad
   double angle_max = 0.0;  // rad, >= angle_min
-  std::int32_t beams = 1;
+  std::int32_t beams = 1;  // how many
   double range_min = 0.0;  // m
   double range_max = 0.0;  // m
   NoiseParameters range;   // m; each beam has a white noise of its own, all share one bias
 
+  /// rad, from one beam to the next.
   double increment() const { return beams > 1 ? (angle_max - angle_min) / (beams - 1) : 0.0; }
-  std::vector<NoiseParameters> noises() const { return {range}; }
+  std::vector<NoiseParameters> noises() const { return {range}; }  // by channel
 };
 
-/// In the order of the alternatives of SensorParameters::model.
+/// In the order of the alternatives of SensorParameters::model. The noises() of each are those of
+/// the channels of its traits, in their order.
 enum class SensorKind { kImu, kGnss, kOdometry, kMagnetometer, kLaser };
 
 /// What of its place a sensor is told.
@@ -124,10 +124,12 @@ struct SensorParameters {
   double drop = 0.0;               // probability that a sample is lost
   Vector3 p_HS = Vector3::Zero();  // m, where it is in the hull frame H
   Vector3 rpy = Vector3::Zero();   // rad, of its axes S in H
+  /// What it is, and how good.
   std::variant<ImuParameters, GnssParameters, OdometryParameters, MagnetometerParameters,
                LaserParameters>
       model;
 
+  /// By the alternative of `model`.
   SensorKind kind() const { return static_cast<SensorKind>(model.index()); }
 };
 
