@@ -121,7 +121,7 @@ class ForceNumbers {
   /// Any other kind. @throws std::invalid_argument
   template <class Other>
   lanes::ForceStep operator()(const Other& /*force*/) {
-    throw std::invalid_argument("vehicles: a batch has no force of a kind that a craft has");
+    throw std::invalid_argument("vehicles: a craft has a force that a batch has not");
   }
 
  private:
@@ -195,6 +195,9 @@ BatchKind batchKindOf(const Scenario& scenario, const HovercraftModel& model) {
     plan.free_translation[i] = is_flat && i == 2 ? 0.0 : 1.0;
     plan.free_rotation[i] = is_flat && i < 2 ? 0.0 : 1.0;
   }
+  refuse(model.forces.size() > lanes::kMostForces, "vehicles." + craft.name,
+         fmt::format("a batch has at most {} laws of drag and actuators besides the engines",
+                     lanes::kMostForces));
   ForceNumbers numbers;
   for (const Force& force : model.forces) {
     const std::size_t first = numbers.numbers.size();

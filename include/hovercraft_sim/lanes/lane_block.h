@@ -104,7 +104,7 @@ struct RotorStep {
   std::size_t first_row = 0;
 };
 
-constexpr std::size_t kMostForces = kMostActuators + 1;  // and one drag law
+constexpr std::size_t kMostForces = kMostActuators + 1;  // and some laws of drag
 
 /// What is the same for all craft of a batch.
 struct StepPlan {
