@@ -1,7 +1,6 @@
-#!/usr/bin/env python3
 """Lists what the installed headers declare without a comment, and fails if there is anything.
 
-    scripts/check_doc_comments.py [--counts] [HEADER...]     # all installed headers by default
+    python3 scripts/check_doc_comments.py [--counts] [HEADER...]     # all installed headers by default
 
 A comment is one of /// or // directly above a declaration, or one behind it on its line. One above functions or constants that follow line by
 line is of all of them. Needless for: overloads of what has a comment, what overrides, is defaulted or deleted, destructors, enumerators,
