@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "hovercraft_sim/math/quaternion.h"
 #include "hovercraft_sim/messages/conversions.h"
@@ -13,9 +14,19 @@ namespace {
 using hovercraft::SensorKind;
 using hovercraft::Vector3;
 
-/// The topics of the first sensor of each kind, in the order of SensorKind.
-constexpr const char* kTopics[] = {"imu/data", "fix", kOdometryTopic, "magnetic_field", "scan"};
-constexpr const char* kVelocityTopic = "fix_velocity";
+using Message = decltype(SensorMessage::message);
+
+static_assert(std::variant_size_v<Message> ==
+                  std::variant_size_v<decltype(hovercraft::SensorParameters::model)>,
+              "a message for each kind of sensor");
+
+/// An empty message of the kind with that index.
+template <std::size_t... kIndex>
+Message emptyMessage(std::size_t kind, std::index_sequence<kIndex...> /*kinds*/) {
+  Message message;
+  ((kIndex == kind ? void(message.emplace<kIndex>()) : void()), ...);
+  return message;
+}
 
 template <class Covariance>
 void setDiagonal(Covariance& covariance, std::size_t size, std::size_t first, double variance) {
@@ -119,8 +130,9 @@ SensorMessages::SensorMessages(const hovercraft::Scenario& scenario, std::size_t
     const SensorKind kind = message.parameters.kind();
     const bool is_first = counts[kind]++ == 0;
     const std::string space = is_first ? "" : message.parameters.name + "/";
-    message.topic = space + kTopics[static_cast<std::size_t>(kind)];
-    if (kind == SensorKind::kGnss) message.velocity_topic = space + kVelocityTopic;
+    const hovercraft::SensorTraits traits = hovercraft::traitsOf(kind);
+    message.topic = space + traits.topic;
+    if (traits.velocity_topic != nullptr) message.velocity_topic = space + traits.velocity_topic;
     if (kind == SensorKind::kOdometry && is_first) {
       message.topic = odometry_topic;
       if (craft.tf == hovercraft::TfSource::kOdometry) tf_sensor_ = i;
@@ -131,23 +143,8 @@ SensorMessages::SensorMessages(const hovercraft::Scenario& scenario, std::size_t
 }
 
 void SensorMessages::prepare(SensorMessage& message, double step, const TfFrames& frames) {
-  switch (message.parameters.kind()) {
-    case SensorKind::kImu:
-      message.message = sensor_msgs::Imu();
-      break;
-    case SensorKind::kGnss:
-      message.message = sensor_msgs::NavSatFix();
-      break;
-    case SensorKind::kOdometry:
-      message.message = nav_msgs::Odometry();
-      break;
-    case SensorKind::kMagnetometer:
-      message.message = sensor_msgs::MagneticField();
-      break;
-    case SensorKind::kLaser:
-      message.message = sensor_msgs::LaserScan();
-      break;
-  }
+  message.message = emptyMessage(message.parameters.model.index(),
+                                 std::make_index_sequence<std::variant_size_v<Message>>());
   const std::vector<double> variances = hovercraft::sampleVariances(message.parameters, step);
   const std::string frame = sensor_prefix_ + message.parameters.name;
   std::visit(Preparer{message.parameters, variances}, message.message);
@@ -156,7 +153,7 @@ void SensorMessages::prepare(SensorMessage& message, double step, const TfFrames
     odometry->header.frame_id = frames.of(name_, kOdometryFrame);
     odometry->child_frame_id = base_frame_;
   }
-  if (message.parameters.kind() != SensorKind::kGnss) return;
+  if (message.velocity_topic.empty()) return;
   message.velocity.header.frame_id = frames.world;  // east, north, up
   setDiagonal(message.velocity.twist.covariance, 6, 0, variances[1]);
   message.velocity.twist.covariance[3 * 6 + 3] = -1.0;  // no angular velocity
@@ -192,7 +189,8 @@ std::vector<geometry_msgs::TransformStamped> SensorMessages::sensorFrames(
     const ros::Time& stamp) const {
   std::vector<geometry_msgs::TransformStamped> frames;
   for (const SensorMessage& message : messages_) {
-    if (message.parameters.kind() == SensorKind::kOdometry) continue;  // it is base_link's
+    const auto place = hovercraft::traitsOf(message.parameters.kind()).place;
+    if (place == hovercraft::SensorPlace::kNone) continue;  // it is base_link's
     geometry_msgs::TransformStamped frame;
     frame.header.stamp = stamp;
     frame.header.frame_id = base_frame_;

@@ -15,13 +15,20 @@ using hovercraft::kEngineNames;
 namespace {
 
 /// First or last parts of the topics that a craft has for something else.
+std::set<std::string> takenNames() {
+  std::set<std::string> names = {
+      kThrustTopic,  kPoseTopic,     kTwistTopic,     kEnginesTopic,
+      kCushionTopic, kWindTopic,     kActuatorsTopic, kActuatorCommandTopic,
+      kStateTopic,   kCommandsTopic, "manoeuvres",    "cmd_vel"};
+  for (const std::string& topic : hovercraft::sensorTopics()) {
+    names.insert(topic.substr(0, topic.find('/')));
+    names.insert(topic.substr(topic.rfind('/') + 1));
+  }
+  return names;
+}
+
 bool isTakenName(const std::string& part) {
-  static const std::set<std::string> names = {
-      kThrustTopic,  kPoseTopic,       kTwistTopic,     kEnginesTopic,
-      kCushionTopic, kWindTopic,       kActuatorsTopic, kActuatorCommandTopic,
-      kStateTopic,   kCommandsTopic,   "manoeuvres",    "cmd_vel",
-      "imu",         "data",           "fix",           "fix_velocity",
-      "odometry",    "magnetic_field", "scan"};
+  static const std::set<std::string> names = takenNames();
   return names.count(part) > 0;
 }
 

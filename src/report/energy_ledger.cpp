@@ -59,7 +59,9 @@ class States {
     powers.engines = powerOf(geometry.wrenchInBody(vector(10, i)), v_B, w_B);
     const Vector3 u_B = rotate(q_BW, v_W - wind);
     powers.drag = powerOf(craft.drag.wrenchInBody(u_B, w_B), v_B, w_B);
-    if (craft.polar) powers.drag += powerOf(craft.polar->wrenchInBody(u_B), v_B, w_B);
+    for (const hovercraft::DragLaw& law : craft.drag_laws) {
+      powers.drag += powerOf(hovercraft::wrenchInBody(law, u_B), v_B, w_B);
+    }
     return powers;
   }
 

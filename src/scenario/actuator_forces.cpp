@@ -57,7 +57,7 @@ RudderForce rudderOf(std::size_t id, const ActuatorScenario& rudder,
 
 std::vector<Force> forcesOf(const VehicleScenario& vehicle) {
   std::vector<Force> forces;
-  if (vehicle.polar) forces.emplace_back(PolarForce{*vehicle.polar});
+  for (const DragLaw& law : vehicle.drag_laws) forces.emplace_back(DragForce{law});
   for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
     const ActuatorScenario& actuator = vehicle.actuators[i];
     const std::size_t id = kFirstActuator + i;
@@ -92,7 +92,6 @@ std::vector<Rotor> rotorsOf(const VehicleScenario& vehicle) {
   for (std::size_t id = 0; id < vehicle.engines.size(); ++id) add(id, vehicle.engines[id], true);
   for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
     const ActuatorScenario& actuator = vehicle.actuators[i];
-    if (actuator.kind == ActuatorKind::kRudder) continue;
     add(kFirstActuator + i, actuator.motion, actuator.kind == ActuatorKind::kFan);
   }
   return rotors;

@@ -1,7 +1,6 @@
 #include "hovercraft_sim/scenario/actuator_parser.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
@@ -60,12 +59,6 @@ void parseMotion(const ConfigReader& reader, double default_timeout, EngineParam
       nanosecondsOf(reader, "timeout", reader.numberOr(default_timeout, "timeout", kNotNegative));
 }
 
-/// The word for a command that is the level itself.
-const char* unitOf(ActuatorKind kind) {
-  static constexpr std::array<const char*, 4> kUnits = {"newton", "per_second", "share", "radian"};
-  return kUnits[static_cast<std::size_t>(kind)];
-}
-
 /// The keys of all kinds, and those of one.
 void allowKeys(const ConfigReader& reader, std::initializer_list<const char*> own) {
   std::vector<std::string> keys = {"kind",    "position", "time_constant", "timeout",
@@ -84,7 +77,7 @@ EngineParameters parseEngine(const ConfigReader& reader) {
   engine.min_thrust = reader.number("min_thrust", kNotPositive);
   engine.max_thrust = reader.number("max_thrust", kNotNegative);
   engine.rotor = parseRotor(reader, 0.0);
-  engine.command = parseCommandMap(reader, unitOf(ActuatorKind::kFan), true);
+  engine.command = parseCommandMap(reader, traitsOf(ActuatorKind::kFan).level, true);
   parseMotion(reader, kDefaultCommandTimeout, engine);
   return engine;
 }
@@ -168,7 +161,7 @@ ActuatorScenario parseActuator(const std::string& name, const ConfigReader& read
       break;
   }
   actuator.motion.command =
-      parseCommandMap(reader, unitOf(actuator.kind), actuator.kind == ActuatorKind::kFan);
+      parseCommandMap(reader, traitsOf(actuator.kind).level, actuator.kind == ActuatorKind::kFan);
   actuator.topic = parseCommandTopic(reader);
   actuator.air_density = reader.numberOr(kStandardAirDensity, "air_density", kPositive);
   // A lift fan runs when the run begins.
@@ -216,11 +209,12 @@ std::string rotorYaml(const RotorParameters& rotor) {
 }
 
 std::string motionYaml(const ActuatorScenario& actuator) {
-  return fmt::format(
-      "time_constant: {}, timeout: {}, initial: {}{}{}}}\n",
-      yamlNumber(actuator.motion.time_constant), yamlNumber(toSeconds(actuator.motion.timeout_ns)),
-      yamlNumber(actuator.initial), commandMapYaml(actuator.motion.command, unitOf(actuator.kind)),
-      commandTopicYaml(actuator.topic));
+  return fmt::format("time_constant: {}, timeout: {}, initial: {}{}{}}}\n",
+                     yamlNumber(actuator.motion.time_constant),
+                     yamlNumber(toSeconds(actuator.motion.timeout_ns)),
+                     yamlNumber(actuator.initial),
+                     commandMapYaml(actuator.motion.command, traitsOf(actuator.kind).level),
+                     commandTopicYaml(actuator.topic));
 }
 
 std::string kindYaml(const ActuatorScenario& actuator) {
@@ -310,7 +304,7 @@ std::string enginesYaml(const VehicleScenario& vehicle) {
         kEngineNames[i], yamlVector(engine.p_HE), yamlVector(engine.direction),
         yamlNumber(engine.min_thrust), yamlNumber(engine.max_thrust),
         yamlNumber(engine.time_constant), yamlNumber(toSeconds(engine.timeout_ns)),
-        rotorYaml(engine.rotor), commandMapYaml(engine.command, unitOf(ActuatorKind::kFan)),
+        rotorYaml(engine.rotor), commandMapYaml(engine.command, traitsOf(ActuatorKind::kFan).level),
         commandTopicYaml(vehicle.engine_topics[i]));
   }
   return yaml;

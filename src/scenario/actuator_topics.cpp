@@ -17,12 +17,13 @@ const std::vector<std::string>& typeNames() {
 }
 
 /// What a craft has or hears besides the topics of single actuators, relative to its namespace.
-const std::vector<std::string>& topicsOfCraft() {
-  static const std::vector<std::string> names = {
-      "thrust",       "actuator_command", "actuators", "pose",       "twist",
-      "odom",         "engines",          "state",     "cushion",    "wind",
-      "commands",     "manoeuvres",       "cmd_vel",   "imu/data",   "fix",
-      "fix_velocity", "odometry",         "scan",      "truth/odom", "magnetic_field"};
+std::vector<std::string> topicsOfCraft() {
+  std::vector<std::string> names = sensorTopics();
+  for (const char* name :
+       {"thrust", "actuator_command", "actuators", "pose", "twist", "odom", "engines", "state",
+        "cushion", "wind", "commands", "manoeuvres", "cmd_vel", "truth/odom"}) {
+    names.emplace_back(name);
+  }
   return names;
 }
 

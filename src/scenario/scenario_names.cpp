@@ -14,6 +14,14 @@ bool isLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
+/// Of all kinds that traitsOf() knows, in their order.
+template <class Kind>
+std::vector<std::string> namesOfKinds() {
+  std::vector<std::string> names;
+  while (const char* name = traitsOf(static_cast<Kind>(names.size())).name) names.push_back(name);
+  return names;
+}
+
 }  // namespace
 
 const std::vector<std::string>& integratorNames() {
@@ -33,7 +41,7 @@ const std::vector<std::string>& modelNames() {
 }
 
 const std::vector<std::string>& actuatorKindNames() {
-  static const std::vector<std::string> names = {"fan", "propeller", "lift_fan", "rudder"};
+  static const std::vector<std::string> names = namesOfKinds<ActuatorKind>();
   return names;
 }
 
@@ -48,8 +56,7 @@ const std::vector<std::string>& tfSourceNames() {
 }
 
 const std::vector<std::string>& sensorKindNames() {
-  static const std::vector<std::string> names = {"imu", "gnss", "odometry", "magnetometer",
-                                                 "laser"};
+  static const std::vector<std::string> names = namesOfKinds<SensorKind>();
   return names;
 }
 

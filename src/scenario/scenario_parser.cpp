@@ -16,6 +16,7 @@
 #include "hovercraft_sim/scenario/air_parser.h"
 #include "hovercraft_sim/scenario/config_reader.h"
 #include "hovercraft_sim/scenario/cushion_parser.h"
+#include "hovercraft_sim/scenario/drag_parser.h"
 #include "hovercraft_sim/scenario/fleet.h"
 #include "hovercraft_sim/scenario/ground_parser.h"
 #include "hovercraft_sim/scenario/mesh_parser.h"
@@ -161,16 +162,6 @@ void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& 
   if (vehicle.initial_w_WB.x() != 0.0 || vehicle.initial_w_WB.y() != 0.0) {
     reader.fail("angular_velocity", rule);
   }
-}
-
-void parseDrag(const ConfigReader& drag, VehicleScenario& vehicle) {
-  drag.allowOnly({"linear", "quadratic", "angular_linear", "angular_quadratic", "polar"});
-  Drag& result = vehicle.drag;
-  result.linear = drag.vectorOr(Vector3::Zero(), "linear", kNotNegative);
-  result.quadratic = drag.vectorOr(Vector3::Zero(), "quadratic", kNotNegative);
-  result.angular_linear = drag.vectorOr(Vector3::Zero(), "angular_linear", kNotNegative);
-  result.angular_quadratic = drag.vectorOr(Vector3::Zero(), "angular_quadratic", kNotNegative);
-  vehicle.polar = parsePolar(drag);
 }
 
 }  // namespace

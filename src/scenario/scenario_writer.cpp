@@ -10,6 +10,7 @@
 #include "hovercraft_sim/scenario/actuator_parser.h"
 #include "hovercraft_sim/scenario/air_parser.h"
 #include "hovercraft_sim/scenario/cushion_parser.h"
+#include "hovercraft_sim/scenario/drag_parser.h"
 #include "hovercraft_sim/scenario/ground_parser.h"
 #include "hovercraft_sim/scenario/mesh_parser.h"
 #include "hovercraft_sim/scenario/scenario_names.h"
@@ -72,11 +73,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
   yaml += surfaceYaml(vehicle, scenario);
   yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";
-  yaml += fmt::format(
-      "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}{}}}\n",
-      yamlVector(vehicle.drag.linear), yamlVector(vehicle.drag.quadratic),
-      yamlVector(vehicle.drag.angular_linear), yamlVector(vehicle.drag.angular_quadratic),
-      polarYaml(vehicle));
+  yaml += dragYaml(vehicle);
   yaml +=
       fmt::format("    initial: {{position: {}, rpy: {}, velocity: {}, angular_velocity: {}}}\n",
                   yamlVector(vehicle.initial_p_WB), yamlVector(vehicle.initial_rpy),

@@ -128,35 +128,31 @@ struct SensorContext {
   }
 };
 
-Keys keysOf(SensorKind kind) {
-  Keys keys = {"kind", "rate", "latency", "drop"};
-  if (kind != SensorKind::kOdometry) keys.emplace_back("position");
-  if (kind != SensorKind::kOdometry && kind != SensorKind::kGnss) keys.emplace_back("rpy");
-  Keys own;
-  Keys channels;
+/// Those of a kind alone, besides its noise.
+Keys ownKeysOf(SensorKind kind) {
   switch (kind) {
     case SensorKind::kImu:
-      own = {"gravity"};
-      channels = {"gyroscope", "accelerometer"};
-      break;
+      return {"gravity"};
     case SensorKind::kGnss:
-      own = {"latitude_deg", "longitude_deg", "altitude"};
-      channels = {"position", "velocity"};
-      break;
+      return {"latitude_deg", "longitude_deg", "altitude"};
     case SensorKind::kOdometry:
-      channels = {"linear", "angular"};
-      break;
+      return {};
     case SensorKind::kMagnetometer:
-      own = {"field"};
-      channels = {"field"};
-      break;
+      return {"field"};
     case SensorKind::kLaser:
-      own = {"angle_min", "angle_max", "beams", "range_min", "range_max"};
-      channels = {"range"};
-      break;
+      return {"angle_min", "angle_max", "beams", "range_min", "range_max"};
   }
+  return {};
+}
+
+Keys keysOf(SensorKind kind) {
+  Keys keys = {"kind", "rate", "latency", "drop"};
+  const SensorPlace place = traitsOf(kind).place;
+  if (place != SensorPlace::kNone) keys.emplace_back("position");
+  if (place == SensorPlace::kPositionAndAxes) keys.emplace_back("rpy");
+  const Keys own = ownKeysOf(kind);
   keys.insert(keys.end(), own.begin(), own.end());
-  for (const std::string& channel : channels) addNoiseKeys(keys, channel);
+  for (const std::string& channel : noiseChannels(kind)) addNoiseKeys(keys, channel);
   return keys;
 }
 
@@ -261,43 +257,39 @@ void parseTf(const ConfigReader& reader, VehicleScenario& vehicle) {
 
 // ---- text ----
 
+/// The keys of a kind alone, with a comma before each.
 struct ModelWriter {
   std::string operator()(const ImuParameters& imu) const {
-    return fmt::format(", gravity: {}", yamlVector(imu.gravity_W)) +
-           noiseText("gyroscope", imu.gyroscope) + noiseText("accelerometer", imu.accelerometer);
+    return ", gravity: " + yamlVector(imu.gravity_W);
   }
   std::string operator()(const GnssParameters& gnss) const {
     return fmt::format(", latitude_deg: {}, longitude_deg: {}, altitude: {}",
                        yamlNumber(gnss.latitude_deg), yamlNumber(gnss.longitude_deg),
-                       yamlNumber(gnss.altitude)) +
-           noiseText("position", gnss.position) + noiseText("velocity", gnss.velocity);
+                       yamlNumber(gnss.altitude));
   }
-  std::string operator()(const OdometryParameters& odometry) const {
-    return noiseText("linear", odometry.linear) + noiseText("angular", odometry.angular);
-  }
+  std::string operator()(const OdometryParameters& /*odometry*/) const { return ""; }
   std::string operator()(const MagnetometerParameters& magnetometer) const {
-    return fmt::format(", field: {}", yamlVector(magnetometer.field_W)) +
-           noiseText("field", magnetometer.field);
+    return ", field: " + yamlVector(magnetometer.field_W);
   }
   std::string operator()(const LaserParameters& laser) const {
     return fmt::format(", angle_min: {}, angle_max: {}, beams: {}, range_min: {}, range_max: {}",
                        yamlNumber(laser.angle_min), yamlNumber(laser.angle_max), laser.beams,
-                       yamlNumber(laser.range_min), yamlNumber(laser.range_max)) +
-           noiseText("range", laser.range);
+                       yamlNumber(laser.range_min), yamlNumber(laser.range_max));
   }
 };
 
 std::string sensorText(const SensorParameters& sensor) {
-  const SensorKind kind = sensor.kind();
-  std::string text =
-      fmt::format("      {}: {{kind: {}, rate: {}, latency: {}, drop: {}", yamlText(sensor.name),
-                  sensorKindNames()[sensor.model.index()], yamlNumber(sensor.rate),
-                  yamlNumber(toSeconds(sensor.latency_ns)), yamlNumber(sensor.drop));
-  if (kind != SensorKind::kOdometry) text += ", position: " + yamlVector(sensor.p_HS);
-  if (kind != SensorKind::kOdometry && kind != SensorKind::kGnss) {
-    text += ", rpy: " + yamlVector(sensor.rpy);
-  }
-  return text + std::visit(ModelWriter(), sensor.model) + "}\n";
+  const SensorTraits traits = traitsOf(sensor.kind());
+  std::string text = fmt::format("      {}: {{kind: {}, rate: {}, latency: {}, drop: {}",
+                                 yamlText(sensor.name), traits.name, yamlNumber(sensor.rate),
+                                 yamlNumber(toSeconds(sensor.latency_ns)), yamlNumber(sensor.drop));
+  if (traits.place != SensorPlace::kNone) text += ", position: " + yamlVector(sensor.p_HS);
+  if (traits.place == SensorPlace::kPositionAndAxes) text += ", rpy: " + yamlVector(sensor.rpy);
+  text += std::visit(ModelWriter(), sensor.model);
+  const auto noises = std::visit([](const auto& model) { return model.noises(); }, sensor.model);
+  const Keys channels = noiseChannels(sensor.kind());
+  for (std::size_t i = 0; i < channels.size(); ++i) text += noiseText(channels[i], noises[i]);
+  return text + "}\n";
 }
 
 /// Sensors have other noise than the gusts, too.

@@ -75,10 +75,10 @@ PlantActuator parsePlantActuator(const std::string& name, const ConfigReader& re
   return actuator;
 }
 
-/// What the plant knows of one; none of a lift fan.
+/// What the plant knows of one; none of what does not push.
 std::optional<PlantActuator> plantActuatorOf(const ActuatorScenario& actuator,
                                              const VehicleScenario& vehicle) {
-  if (actuator.kind == ActuatorKind::kLiftFan) return std::nullopt;
+  if (traitsOf(actuator.kind).push == ActuatorPush::kNone) return std::nullopt;
   const Vector3 arm = actuator.motion.p_HE - vehicle.mass_properties.p_HB;
   const Vector3& direction = actuator.motion.direction;
   PlantActuator known;
@@ -140,15 +140,6 @@ void checkFans(const ConfigReader& actuators, const VelocityPlant& plant) {
   }
 }
 
-/// By quadratic drag of each axis what the polar has ahead and to the side.
-Vector3 quadraticOf(const DragPolar& polar) {
-  const double half = 0.5 * polar.air_density;
-  const double ahead = polar.coefficients(1.0, 0.0).x();
-  const double sideways = polar.coefficients(0.0, 1.0).y();
-  return {half * polar.area_x * std::max(0.0, ahead), half * polar.area_y * std::max(0.0, sideways),
-          0.0};
-}
-
 /// The word for a command that is the level itself.
 constexpr const char* kLevelWord = "level";
 
@@ -192,7 +183,7 @@ VelocityParameters velocityParametersOf(const VehicleScenario& vehicle) {
   plant.center_y = body.p_HB.y();
   plant.linear_drag = planarPart(vehicle.drag.linear, vehicle.drag.angular_linear);
   plant.quadratic_drag = planarPart(vehicle.drag.quadratic, vehicle.drag.angular_quadratic);
-  if (vehicle.polar) plant.quadratic_drag += quadraticOf(*vehicle.polar);
+  for (const DragLaw& law : vehicle.drag_laws) plant.quadratic_drag += quadraticDrag(law);
   double lag = 0.0;
   for (std::size_t i = 0; i < vehicle.engines.size(); ++i) {
     if (!vehicle.has_engine[i]) continue;

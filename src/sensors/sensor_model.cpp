@@ -33,17 +33,6 @@ struct ModelMaker {
   }
 };
 
-struct ChannelParameters {
-  using List = std::vector<NoiseParameters>;
-  List operator()(const ImuParameters& imu) const { return {imu.gyroscope, imu.accelerometer}; }
-  List operator()(const GnssParameters& gnss) const { return {gnss.position, gnss.velocity}; }
-  List operator()(const OdometryParameters& odometry) const {
-    return {odometry.linear, odometry.angular};
-  }
-  List operator()(const MagnetometerParameters& magnetometer) const { return {magnetometer.field}; }
-  List operator()(const LaserParameters& laser) const { return {laser.range}; }
-};
-
 }  // namespace
 
 std::unique_ptr<SensorModel> makeSensorModel(const SensorParameters& parameters,
@@ -63,7 +52,9 @@ std::vector<double> sampleVariances(const SensorParameters& parameters, double s
   const FloatingPointEnvironment environment;
   const double period = static_cast<double>(parameters.period) * step;
   std::vector<double> variances;
-  for (const NoiseParameters& noise : std::visit(ChannelParameters(), parameters.model)) {
+  const auto noises =
+      std::visit([](const auto& model) { return model.noises(); }, parameters.model);
+  for (const NoiseParameters& noise : noises) {
     variances.push_back(NoiseProcess(noise, period, "").variance());
   }
   return variances;

@@ -1,17 +1,21 @@
 #include "hovercraft_sim/sensors/sensor_parameters.h"
 
+#include <sstream>
+
 namespace hovercraft {
 namespace {
 
 using Names = std::vector<std::string>;
 
+Names wordsOf(const char* text) {
+  Names words;
+  std::istringstream stream(text);
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+/// Those that are not in the traits.
 struct FieldNames {
-  Names operator()(const ImuParameters& /*imu*/) const {
-    return {"wx", "wy", "wz", "ax", "ay", "az"};
-  }
-  Names operator()(const GnssParameters& /*gnss*/) const {
-    return {"latitude", "longitude", "altitude", "v_east", "v_north", "v_up"};
-  }
   Names operator()(const OdometryParameters& /*odometry*/) const {
     Names names = {"x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"};
     // Upper triangle of the covariance of position and rotation, row by row.
@@ -23,9 +27,6 @@ struct FieldNames {
     }
     return names;
   }
-  Names operator()(const MagnetometerParameters& /*magnetometer*/) const {
-    return {"mx", "my", "mz"};
-  }
   Names operator()(const LaserParameters& laser) const {
     Names names;
     names.reserve(static_cast<std::size_t>(laser.beams));
@@ -34,37 +35,38 @@ struct FieldNames {
     }
     return names;
   }
-};
-
-/// The channels of each kind.
-Names channelsOf(SensorKind kind) {
-  switch (kind) {
-    case SensorKind::kImu:
-      return {"gyroscope", "accelerometer"};
-    case SensorKind::kGnss:
-      return {"position", "velocity"};
-    case SensorKind::kOdometry:
-      return {"linear", "angular"};
-    case SensorKind::kMagnetometer:
-      return {"field"};
-    case SensorKind::kLaser:
-      return {"range", "beam"};
+  template <class Parameters>
+  Names operator()(const Parameters& /*parameters*/) const {
+    return {};
   }
-  return {};
-}
+};
 
 }  // namespace
 
+std::vector<std::string> sensorTopics() {
+  Names topics;
+  for (int kind = 0; traitsOf(static_cast<SensorKind>(kind)).name != nullptr; ++kind) {
+    const SensorTraits traits = traitsOf(static_cast<SensorKind>(kind));
+    topics.emplace_back(traits.topic);
+    if (traits.velocity_topic != nullptr) topics.emplace_back(traits.velocity_topic);
+  }
+  return topics;
+}
+
+std::vector<std::string> noiseChannels(SensorKind kind) {
+  return wordsOf(traitsOf(kind).channels);
+}
+
 std::vector<std::string> sampleFields(const SensorParameters& sensor) {
-  return std::visit(FieldNames(), sensor.model);
+  const Names fields = wordsOf(traitsOf(sensor.kind()).fields);
+  return fields.empty() ? std::visit(FieldNames(), sensor.model) : fields;
 }
 
 std::vector<std::string> channelNames(const std::string& vehicle, const SensorParameters& sensor) {
   const std::string source = vehicle + "/" + sensor.name + "/";
   Names names;
-  for (const std::string& channel : channelsOf(sensor.kind())) {
-    names.push_back(source + channel);
-  }
+  for (const std::string& channel : noiseChannels(sensor.kind())) names.push_back(source + channel);
+  if (sensor.kind() == SensorKind::kLaser) names.push_back(source + "beam");
   names.push_back(source + "drop");
   return names;
 }

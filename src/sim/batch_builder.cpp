@@ -75,7 +75,8 @@ class LaneWriter {
   std::size_t end_;
 };
 
-/// A force as a step of a plan, and the numbers of one, in one order.
+/// A force as a step of a plan, and the numbers of one, in one order. One kind is one function here
+/// and one in lanes/lane_forces.h.
 class ForceNumbers {
  public:
   std::vector<double> numbers;
@@ -107,8 +108,8 @@ class ForceNumbers {
     if (const auto* found = std::get_if<PropellerForce>(&rudder.fan)) fan = (*this)(*found);
     return {ForceKind::kRudder, fan.kind, rudder.id, fan.id, 0};
   }
-  lanes::ForceStep operator()(const PolarForce& force) {
-    const DragPolar& polar = force.polar;
+  lanes::ForceStep operator()(const DragForce& force) { return std::visit(*this, force.law); }
+  lanes::ForceStep operator()(const DragPolar& polar) {
     for (const double number : {polar.air_density, polar.area_x, polar.area_y, polar.length}) {
       numbers.push_back(number);
     }
@@ -116,6 +117,11 @@ class ForceNumbers {
       numbers.insert(numbers.end(), terms->begin(), terms->end());
     }
     return {ForceKind::kPolar, ForceKind::kNone, 0, 0, 0};
+  }
+  /// Any other kind. @throws std::invalid_argument
+  template <class Other>
+  lanes::ForceStep operator()(const Other& /*force*/) {
+    throw std::invalid_argument("vehicles: a craft has a force that a batch has not");
   }
 
  private:
@@ -189,6 +195,9 @@ BatchKind batchKindOf(const Scenario& scenario, const HovercraftModel& model) {
     plan.free_translation[i] = is_flat && i == 2 ? 0.0 : 1.0;
     plan.free_rotation[i] = is_flat && i < 2 ? 0.0 : 1.0;
   }
+  refuse(model.forces.size() > lanes::kMostForces, "vehicles." + craft.name,
+         fmt::format("a batch has at most {} laws of drag and actuators besides the engines",
+                     lanes::kMostForces));
   ForceNumbers numbers;
   for (const Force& force : model.forces) {
     const std::size_t first = numbers.numbers.size();

@@ -89,7 +89,9 @@ Vector3 dragOf(const hovercraft::VehicleScenario& craft, const Vector3& wind,
   const hovercraft::Matrix3 R_WB = hovercraft::rotationMatrix(fromMessage(state.pose.orientation));
   const Vector3 u_B = hovercraft::transposeTimes(R_WB, fromMessage(state.velocity) - wind);
   Vector3 force_B = craft.drag.wrenchInBody(u_B, Vector3::Zero()).force;
-  if (craft.polar) force_B += craft.polar->wrenchInBody(u_B).force;
+  for (const hovercraft::DragLaw& law : craft.drag_laws) {
+    force_B += hovercraft::wrenchInBody(law, u_B).force;
+  }
   return hovercraft::times(R_WB, force_B);
 }
 

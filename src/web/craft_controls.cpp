@@ -1,7 +1,6 @@
 #include "hovercraft_sim/web/craft_controls.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -11,7 +10,7 @@
 
 namespace hovercraft_ros {
 
-using hovercraft::ActuatorKind;
+using hovercraft::ActuatorPush;
 using hovercraft::Vector3;
 
 namespace {
@@ -29,9 +28,18 @@ Effect effectOf(const Vector3& p_BE, const Vector3& direction) {
   return {direction.x(), p_BE.x() * direction.y() - p_BE.y() * direction.x()};
 }
 
-const char* unitOf(ActuatorKind kind) {
-  static constexpr std::array<const char*, 4> units = {"N", "1/s", "", "rad"};
-  return units[static_cast<std::size_t>(kind)];
+/// The way that a greater level pushes, in B. A lift fan blows down: it neither pushes nor turns.
+Vector3 pushOf(const hovercraft::ActuatorScenario& actuator) {
+  const Vector3& along = actuator.motion.direction;
+  switch (hovercraft::traitsOf(actuator.kind).push) {
+    case ActuatorPush::kAlong:
+      return along;
+    case ActuatorPush::kAcross:
+      return hovercraft::cross(actuator.hinge, along);
+    case ActuatorPush::kNone:
+      break;
+  }
+  return Vector3::Zero();
 }
 
 int signOf(double value) {
@@ -80,15 +88,10 @@ std::vector<CraftControl> controlsOf(const hovercraft::VehicleScenario& craft) {
   for (const hovercraft::ActuatorScenario& actuator : craft.actuators) {
     CraftControl control;
     control.name = actuator.name;
-    control.unit = unitOf(actuator.kind);
+    control.unit = hovercraft::traitsOf(actuator.kind).unit;
     control.rest = actuator.initial;
-    const bool is_rudder = actuator.kind == ActuatorKind::kRudder;
-    control.holds = is_rudder || actuator.kind == ActuatorKind::kLiftFan;
-    const Vector3& along = actuator.motion.direction;
-    // A lift fan blows down: it neither pushes nor turns.
-    const Vector3 across = hovercraft::cross(actuator.hinge, along);
-    const Vector3 lifts = Vector3::Zero();
-    add(control, actuator.motion, is_rudder ? across : (control.holds ? lifts : along));
+    control.holds = hovercraft::traitsOf(actuator.kind).push != ActuatorPush::kAlong;
+    add(control, actuator.motion, pushOf(actuator));
   }
   setDirections(effects, reach, controls);
   return controls;

@@ -298,5 +298,31 @@ TEST(SampleVariances, AreThoseOfEachChannel) {
   EXPECT_NEAR(variances[1], 169.0, 1e-12);
 }
 
+// ---- the list of kinds --------------------------------------------------------------------------
+
+template <std::size_t kKind>
+void expectWhole() {
+  using Model = decltype(SensorParameters::model);
+  const SensorParameters sensor = sensorOf(Model(std::in_place_index<kKind>));
+  const SensorTraits traits = traitsOf(sensor.kind());
+  ASSERT_NE(traits.name, nullptr) << kKind;
+  EXPECT_EQ(sampleFields(sensor).size(), Bench(sensor).model->sampleSize()) << traits.name;
+  // One channel more drops samples, of a laser another one is that of its beams.
+  const std::size_t more = sensor.kind() == SensorKind::kLaser ? 2 : 1;
+  const auto noises = std::visit([](const auto& model) { return model.noises(); }, sensor.model);
+  EXPECT_EQ(channelNames("craft", sensor).size(), noises.size() + more) << traits.name;
+}
+
+template <std::size_t... kKind>
+void expectAllWhole(std::index_sequence<kKind...> /*kinds*/) {
+  (expectWhole<kKind>(), ...);
+  EXPECT_EQ(traitsOf(static_cast<SensorKind>(sizeof...(kKind))).name, nullptr);
+}
+
+TEST(SensorKinds, EachHasANameANoiseForEachChannelAndAFieldForEachNumber) {
+  expectAllWhole(
+      std::make_index_sequence<std::variant_size_v<decltype(SensorParameters::model)>>());
+}
+
 }  // namespace
 }  // namespace hovercraft

@@ -159,7 +159,7 @@ TEST(Air, AScenarioComesBackFromItsText) {
            "sway: [0.6], yaw: [0, 0.1]}"));
   const std::string text = toYaml(scenario);
   EXPECT_EQ(toYaml(scenarioOf(text)), text);
-  EXPECT_EQ(scenarioOf(text).vehicles[0].polar->yaw[1], 0.1);
+  EXPECT_EQ(std::get<DragPolar>(scenarioOf(text).vehicles[0].drag_laws.at(0)).yaw[1], 0.1);
   Simulation a(scenario);
   Simulation b(scenarioOf(text));
   flyOn(a, 50);

@@ -294,6 +294,9 @@ TEST(Batch, RefusesByNameWhatItCannotDo) {
             "vehicles.craft.sensors: a batch reads no sensors: must not be");
   EXPECT_EQ(refusalAfter([](Scenario& s) { s.orientation = OrientationKind::kMatrix; }),
             "orientation: must be quaternion in a batch");
+  EXPECT_EQ(
+      refusalAfter([](Scenario& s) { s.vehicles.front().drag_laws.resize(13, DragPolar()); }),
+      "vehicles.craft: a batch has at most 12 laws of drag and actuators besides the engines");
   EXPECT_EQ(refusalOf({}), "a batch must have a scenario");
   EXPECT_EQ(refusalOf({plainScenario()}, {0, std::nullopt}), "threads = 0: must be 1 or greater");
 }
@@ -309,7 +312,7 @@ TEST(Batch, RefusesByNameInWhatARunMustNotDiffer) {
             "run 1: gusts" + rule);
   EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().actuators.resize(1); }),
             "run 1: the names of the actuators" + rule);
-  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().polar = DragPolar(); }),
+  EXPECT_EQ(refusalOfSecond([](Scenario& s) { s.vehicles.front().drag_laws = {DragPolar()}; }),
             "run 1: actuators and polar: their kinds and fans" + rule);
   EXPECT_EQ(refusalOfSecond([](Scenario& s) {
               s.vehicles.front().engines[1].rotor = {1e-5, 900.0, 1.0};

@@ -159,7 +159,7 @@ class RandomCraft {
       craft.initial_v_WB.z() = craft.initial_w_WB.x() = craft.initial_w_WB.y() = 0.0;
     }
     if (has_actuators_) {
-      craft.polar = polar();
+      craft.drag_laws = {polar()};
       craft.actuators = {actuator("a", ActuatorKind::kFan), actuator("b", ActuatorKind::kPropeller),
                          actuator("c", ActuatorKind::kRudder, "a"),
                          actuator("d", ActuatorKind::kRudder, "b"),

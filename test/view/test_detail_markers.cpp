@@ -65,10 +65,11 @@ TEST(DetailMarkers, TheWindOfGustsCountsWhereItIsKnown) {
 // A polar of 1 m² ahead adds q = 2 kg/m³ (2 m/s)²/2 = 4 N.
 TEST(DetailMarkers, DragIsThatOfThePolarToo) {
   hovercraft::VehicleScenario craft = dragged();
-  craft.polar.emplace();
-  craft.polar->air_density = 2.0;
-  craft.polar->area_x = 1.0;
-  craft.polar->surge[1] = 1.0;
+  hovercraft::DragPolar polar;
+  polar.air_density = 2.0;
+  polar.area_x = 1.0;
+  polar.surge[1] = 1.0;
+  craft.drag_laws = {polar};
   const Vector3 drag = dragOf(craft, Vector3::Zero(), stateAlongY());
   EXPECT_NEAR((drag - Vector3(0.0, -10.0, 0.0)).norm(), 0.0, 1e-12);
 }

@@ -19,8 +19,8 @@ namespace hovercraft_ros {
 /// A message of a sensor as a bag holds it: by its bytes, but for the names of frames and the
 /// number that a publisher gives it.
 struct RecordedSample {
-  std::size_t vehicle = 0;
-  std::size_t sensor = 0;
+  std::size_t vehicle = 0;     // index into the scenario's vehicles
+  std::size_t sensor = 0;      // index into the craft's sensors
   bool is_velocity = false;    // of GNSS: the second one of its two messages
   std::uint64_t stamp_ns = 0;  // of the measurement
   std::uint64_t digest = 0;    // FNV-1a of the bytes
@@ -37,15 +37,16 @@ HOVERCRAFT_PUBLIC std::vector<RecordedSample> readSamples(const std::string& pat
 /// Compares the samples of a run with those of a recording, bit for bit.
 class HOVERCRAFT_PUBLIC SampleComparison {
  public:
+  /// @param recorded as readSamples(). @param scenario of the run.
   SampleComparison(const std::vector<RecordedSample>& recorded,
                    const hovercraft::Scenario& scenario);
 
   struct Difference {
     std::uint64_t stamp_ns = 0;
-    std::string vehicle;
-    std::string topic;
+    std::string vehicle;   // name
+    std::string topic;     // relative to its namespace
     std::string recorded;  // digest, or "nothing"
-    std::string replayed;
+    std::string replayed;  // likewise
   };
 
   /// A sample of the run; one that was not recorded is fewer to compare.
@@ -55,7 +56,7 @@ class HOVERCRAFT_PUBLIC SampleComparison {
   /// The first recorded one with a stamp in (begin, end], ns, that the run did not have.
   [[nodiscard]] std::optional<Difference> missing(std::uint64_t begin_ns,
                                                   std::uint64_t end_ns) const;
-  std::uint64_t compared() const { return compared_; }
+  std::uint64_t compared() const { return compared_; }  // messages, so far
 
  private:
   using Key = std::tuple<std::uint64_t, std::size_t, std::size_t, bool>;  // stamp first

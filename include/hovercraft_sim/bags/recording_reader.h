@@ -19,9 +19,10 @@ namespace hovercraft_ros {
 
 /// A place in a run: ticks count anew in each episode.
 struct RunTime {
-  std::uint32_t episode = 0;
-  hovercraft::Tick tick = 0;
+  std::uint32_t episode = 0;  // 0 before the first reset or load
+  hovercraft::Tick tick = 0;  // within the episode
 };
+/// By episode, then by tick.
 inline bool operator<(const RunTime& a, const RunTime& b) {
   return a.episode != b.episode ? a.episode < b.episode : a.tick < b.tick;
 }
@@ -29,22 +30,23 @@ inline bool operator<(const RunTime& a, const RunTime& b) {
 /// Everything in a bag that a replay needs, each list in the order of the run.
 struct Recording {
   struct RecordedCommand {
-    RunTime time;
-    hovercraft::Command command;
+    RunTime time;                 // at which it took effect
+    hovercraft::Command command;  // with that tick
   };
   struct RecordedState {
-    RunTime time;
-    std::size_t vehicle = 0;
-    hovercraft_sim::State state;
+    RunTime time;                 // of the state
+    std::size_t vehicle = 0;      // index into the scenario's vehicles
+    hovercraft_sim::State state;  // as recorded
   };
 
-  std::string source = "the recording";  // for people: the file
-  std::string scenario_text;
+  std::string source = "the recording";                        // for people: the file
+  std::string scenario_text;                                   // as recorded on ~scenario
   hovercraft::Scenario scenario;                               // the same, parsed
   std::int64_t physics_version = hovercraft::kPhysicsVersion;  // that the states were computed by
-  std::vector<RecordedCommand> commands;
+  std::vector<RecordedCommand> commands;                       // that took effect
+  /// Resets, loads and what else changed the run besides commands.
   std::vector<hovercraft_sim::RunEvent> events;
-  std::vector<RecordedState> states;
+  std::vector<RecordedState> states;  // of all craft
 
   std::vector<RecordedSample> samples;  // of sensors, as they lie in the bag
   /// ROS time of tick 0 of each episode, ns.
@@ -53,8 +55,8 @@ struct Recording {
   /// From its time on to the end of its episode, states rest on a command or an event that the bag
   /// lacks; `missing` says which. A reset or a load that is there makes all before it irrelevant.
   struct Gap {
-    RunTime begin;
-    std::string missing;
+    RunTime begin;        // the first time that it concerns
+    std::string missing;  // for people: what
   };
   std::vector<Gap> gaps;  // one at most of an episode, in their order
   /// States that the bag lacks: they are fewer to compare, no more.

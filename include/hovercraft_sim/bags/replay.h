@@ -15,24 +15,24 @@ namespace hovercraft_ros {
 /// Where a replay and its recording part: the first state, and its first field in the order of
 /// State.msg.
 struct ReplayDifference {
-  RunTime time;
-  std::string vehicle;
-  std::string field;
+  RunTime time;          // of the state
+  std::string vehicle;   // name
+  std::string field;     // name in State.msg
   std::string recorded;  // to the last bit
-  std::string replayed;
+  std::string replayed;  // likewise
 };
 
 struct ReplayResult {
-  std::optional<ReplayDifference> difference;
-  std::uint64_t compared_states = 0;
-  std::uint64_t compared_samples = 0;  // messages of sensors
-  hovercraft::Tick simulated_ticks = 0;
-  std::uint64_t hash = 0;  // Simulation::hash() at the end
+  std::optional<ReplayDifference> difference;  // none: it is the same
+  std::uint64_t compared_states = 0;           // states that were held against the recording
+  std::uint64_t compared_samples = 0;          // messages of sensors
+  hovercraft::Tick simulated_ticks = 0;        // steps that were made
+  std::uint64_t hash = 0;                      // Simulation::hash() at the end
   /// Of a position, m, and where it is. Of a recording of this physics version it is 0 up to the
   /// difference, which ends the replay; one of an older version is replayed to its end.
   double largest_error = 0.0;
-  RunTime largest_error_time;
-  std::string largest_error_vehicle;
+  RunTime largest_error_time;         // of the state that it is of
+  std::string largest_error_vehicle;  // name
   /// States that rest on something that the recording lacks (Recording::gaps).
   std::uint64_t unknown_states = 0;
 };
@@ -51,7 +51,7 @@ HOVERCRAFT_PUBLIC ReplayResult replay(const Recording& recording,
 
 /// What the tool `replay` was asked for.
 struct ReplayRequest {
-  std::string bag;
+  std::string bag;                      // its path
   std::string output;                   // a bag to write anew, or empty
   std::vector<std::string> sets;        // KEY.PATH=VALUE: withOverrides()
   std::string truth_odom = kOdomTopic;  // in the output, the topic of the true odometry

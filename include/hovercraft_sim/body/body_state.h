@@ -10,6 +10,7 @@ namespace hovercraft {
 /// State of a body in the representation of its orientation that the scenario chose.
 using BodyState = std::variant<RigidBodyState<Quaternion>, RigidBodyState<Matrix3>>;
 
+/// Of the centre of mass, in W.
 inline Pose poseOf(const BodyState& state) {
   return std::visit(
       [](const auto& body) {
@@ -18,10 +19,12 @@ inline Pose poseOf(const BodyState& state) {
       state);
 }
 
+/// Of the centre of mass, m, in W.
 inline const Vector3& positionOf(const BodyState& state) {
   return std::visit([](const auto& body) -> const Vector3& { return body.p_WB; }, state);
 }
 
+/// B -> W; of a matrix the quaternion of the same rotation.
 inline Quaternion orientationOf(const BodyState& state) {
   return std::visit([](const auto& body) { return toQuaternion(body.orientation); }, state);
 }
@@ -31,6 +34,7 @@ inline Vector3 velocityOf(const BodyState& state, const Mobility& mobility) {
   return std::visit([&](const auto& body) { return mobility.velocity(body.momentum_W); }, state);
 }
 
+/// Of the centre of mass, in W.
 inline Twist twistOf(const BodyState& state, const Mobility& mobility) {
   return std::visit([&](const auto& body) { return mobility.twist(body); }, state);
 }

@@ -31,7 +31,7 @@ struct Wrench {
   Vector3 torque = Vector3::Zero();
 };
 
-inline Wrench operator+(const Wrench& a, const Wrench& b) {
+inline Wrench operator+(const Wrench& a, const Wrench& b) {  // component by component
   return {a.force + b.force, a.torque + b.torque};
 }
 
@@ -44,10 +44,10 @@ struct Twist {
 /// dY/dt of (24).
 template <class Orientation>
 struct StateDerivative {
-  Vector3 v_WB;
+  Vector3 v_WB;                  // in W, m/s
   Orientation orientation_rate;  // not a rotation: ½[0,w]q or skew(w)R
-  Vector3 force_W;
-  Vector3 torque_W;
+  Vector3 force_W;               // N
+  Vector3 torque_W;              // N m
 };
 
 /// Wrench about the centre of mass of the force f_W that acts at the world point p_WP (10), all in
@@ -62,14 +62,14 @@ inline Vector3 velocityOfPoint(const Twist& twist, const Vector3& p_WP, const Ve
   return twist.v_WB + cross(twist.w_WB, p_WP - p_WB);
 }
 
-inline Matrix3 rotationMatrix(const Matrix3& R_WB) {
+inline Matrix3 rotationMatrix(const Matrix3& R_WB) {  // of an orientation, B -> W
   return R_WB;
 }
 
-inline Quaternion orientationRate(const Vector3& w_WB, const Quaternion& q_WB) {
+inline Quaternion orientationRate(const Vector3& w_WB, const Quaternion& q_WB) {  // dq/dt, 1/s
   return quaternionRateWorld(w_WB, q_WB);
 }
-inline Matrix3 orientationRate(const Vector3& w_WB, const Matrix3& R_WB) {
+inline Matrix3 orientationRate(const Vector3& w_WB, const Matrix3& R_WB) {  // dR/dt, likewise
   return rotationRate(w_WB, R_WB);
 }
 
@@ -84,10 +84,10 @@ inline Matrix3 renormalized(const Matrix3& R) {
   return nearest ? *nearest : Matrix3(Matrix3::Constant(std::numeric_limits<double>::quiet_NaN()));
 }
 
-inline Quaternion toQuaternion(const Quaternion& q_WB) {
+inline Quaternion toQuaternion(const Quaternion& q_WB) {  // of the same rotation
   return q_WB;
 }
-inline Quaternion toQuaternion(const Matrix3& R_WB) {
+inline Quaternion toQuaternion(const Matrix3& R_WB) {  // likewise
   return quaternionFromMatrix(R_WB);
 }
 
@@ -135,7 +135,7 @@ class HOVERCRAFT_PUBLIC Mobility {
   }
 
   template <class Orientation>
-  Twist twist(const RigidBodyState<Orientation>& state) const {
+  Twist twist(const RigidBodyState<Orientation>& state) const {  // of the centre of mass, in W
     const Matrix3 R_WB = rotationMatrix(state.orientation);
     return {velocity(state.momentum_W),
             times(R_WB, angularVelocityInBody(state.angular_momentum_W, R_WB))};

@@ -38,6 +38,7 @@ constexpr bool isEuler(Integrator integrator) {
   return integrator == Integrator::kEuler || integrator == Integrator::kSemiImplicitEuler;
 }
 
+/// Component by component.
 template <class Orientation>
 StateDerivative<Orientation> operator+(const StateDerivative<Orientation>& a,
                                        const StateDerivative<Orientation>& b) {

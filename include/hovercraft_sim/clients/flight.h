@@ -85,13 +85,13 @@ class HOVERCRAFT_PUBLIC Flight {
 
 /// How far a flight may be from its reference, m and rad. Neither set: the same to the last bit.
 struct FlightTolerance {
-  std::optional<double> position;
-  std::optional<double> attitude;
+  std::optional<double> position;  // m
+  std::optional<double> attitude;  // rad
 };
 
 struct FlightVerdict {
-  bool follows = false;
-  std::string text;  // what parted first, when, by how much; or how close they stayed
+  bool follows = false;  // within the tolerance
+  std::string text;      // what parted first, when, by how much; or how close they stayed
 };
 
 /// Compares a flight with the trajectories of a reference (.bag or .csv) at each time of the

@@ -20,24 +20,24 @@ enum class [[nodiscard]] Proximity{
 /// Where a query starts, and where it ended: keep it from one query of a pair of bodies to the
 /// next. A fresh one lets the query look for a start by itself.
 struct FeaturePair {
-  bool known = false;
-  Feature a;
-  Feature b;
+  bool known = false;  // whether the rest means anything
+  Feature a;           // of the first body
+  Feature b;           // of the second body
   std::array<std::int32_t, 2>
       hints{};  // where in the ring of a long face, the fan of a long vertex
 };
 
 /// The closest points of two convex bodies, the features that hold them, and the certificate.
 struct ClosestFeatures {
-  Proximity status = Proximity::kStepLimit;
+  Proximity status = Proximity::kStepLimit;  // what is known; kStepLimit: nothing
   double distance = 0.0;  // m, negative: depth, the length of the least translation that parts them
   Vector3 p_WCa;          // witness point on A
   Vector3 p_WCb;          // witness point on B
   Vector3 nhat_AB_W;      // unit, from A to B: the way B parts from A
-  Feature feature_a;
-  Feature feature_b;
-  int steps = 0;   // pairs of features looked at
-  int climbs = 0;  // moves from vertex to vertex before them, of a query without a start
+  Feature feature_a;      // that holds the point on A
+  Feature feature_b;      // that holds the point on B
+  int steps = 0;          // pairs of features looked at
+  int climbs = 0;         // moves from vertex to vertex before them, of a query without a start
   /// The sine of the largest angle by which the line between the witness points leaves the Voronoi
   /// regions of the two features, or a bound on it; at most kVoronoiSlack when separated: theorem 2
   /// then says that no other points are closer.

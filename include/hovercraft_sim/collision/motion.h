@@ -33,6 +33,7 @@ struct AxisAlignedBox {
   Vector3 low = Vector3::Zero();
   Vector3 high = Vector3::Zero();
 
+  /// Whether they share a point; faces that touch count.
   bool overlaps(const AxisAlignedBox& other) const {
     return low.x() <= other.high.x() && other.low.x() <= high.x() && low.y() <= other.high.y() &&
            other.low.y() <= high.y() && low.z() <= other.high.z() && other.low.z() <= high.z();

@@ -28,7 +28,7 @@ struct ImpactSearch {
 };
 
 struct TimeOfImpact {
-  ImpactStatus status = ImpactStatus::kNone;
+  ImpactStatus status = ImpactStatus::kNone;  // what happened first
   double time = 0.0;        // s; never after the first contact. kNone: the duration
   ClosestFeatures closest;  // at `time`
   int queries = 0;          // of closest features
@@ -63,10 +63,10 @@ struct Plane {
 };
 
 struct VertexImpact {
-  ImpactStatus status = ImpactStatus::kNone;
-  double time = 0.0;  // s, never after the vertex passed the plane. kNone: the duration
-  double gap = 0.0;   // m, height over the plane at `time`
-  int evaluations = 0;
+  ImpactStatus status = ImpactStatus::kNone;  // what happened first
+  double time = 0.0;    // s, never after the vertex passed the plane. kNone: the duration
+  double gap = 0.0;     // m, height over the plane at `time`
+  int evaluations = 0;  // how often the motion was asked for
 };
 
 /// The first time in a step at which a vertex p_B of a moving body comes within `tolerance` of a

@@ -6,7 +6,7 @@ namespace hovercraft {
 
 /// How a body moves, in its frame B at the centre of mass.
 struct BodyMotion {
-  Matrix3 R_WB;
+  Matrix3 R_WB;    // axes of B in W
   Vector3 p_WB;    // m
   Vector3 v_WB_B;  // m/s, of B in W
   Vector3 w_WB_B;  // rad/s

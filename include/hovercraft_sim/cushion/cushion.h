@@ -20,8 +20,8 @@ namespace hovercraft {
 
 /// Bounds on the parts of one cushion: what is needed of them in a step lies on the stack.
 constexpr std::size_t kMaxCells = 16;
-constexpr std::size_t kMaxHemPoints = 64;
-constexpr std::size_t kMaxFans = 8;
+constexpr std::size_t kMaxHemPoints = 64;  // of all cells together
+constexpr std::size_t kMaxFans = 8;        // lift fans
 
 /// A point of the hem and the length of hem that it stands for.
 struct HemPoint {
@@ -35,18 +35,18 @@ struct CushionCell {
   double area = 0.0;               // S, m², > 0
   double height = 0.0;             // H = V/S at hover, m, > 0: for the margin of stability only
   std::size_t fan = 0;             // that feeds it
-  std::vector<HemPoint> hem;
+  std::vector<HemPoint> hem;       // its points, in any order
 };
 
 /// A speed (share of the nominal one, >= 0) that a fan has at a time (s).
 struct FanSpeedPoint {
-  double time = 0.0;
-  double speed = 1.0;
+  double time = 0.0;   // s
+  double speed = 1.0;  // share of the nominal one
 };
 
 /// A lift fan as each of the cells that it feeds sees it.
 struct CushionFan {
-  std::string name;
+  std::string name;                        // its key in the scenario
   FanCurve curve;                          // of one cell's share
   Vector3 p_HI = Vector3::Zero();          // intake, in the hull frame, m
   double speed = 1.0;                      // share of the nominal speed, >= 0; of one that an
@@ -63,17 +63,17 @@ struct CushionFan {
 /// The skirt as a spring.
 struct Skirt {
   double stiffness = 0.0;  // k_s, N/m², of a metre of hem; 0: the skirt carries nothing
-  GroundSpring spring;
+  GroundSpring spring;     // of a point of the hem
 };
 
 /// A cushion as the scenario describes it.
 struct CushionParameters {
-  double discharge = 0.6;      // C_d, of the escape under the hem
-  double residual_gap = 1e-4;  // d, m, > 0
-  double air_density = 1.225;  // rho, kg/m³, > 0
-  std::vector<CushionFan> fans;
-  std::vector<CushionCell> cells;
-  Skirt skirt;
+  double discharge = 0.6;          // C_d, of the escape under the hem
+  double residual_gap = 1e-4;      // d, m, > 0
+  double air_density = 1.225;      // rho, kg/m³, > 0
+  std::vector<CushionFan> fans;    // that feed the cells
+  std::vector<CushionCell> cells;  // in the order of the scenario
+  Skirt skirt;                     // none by default: it carries nothing
 };
 
 /// The speeds of the fans, shares of their nominal ones.
@@ -81,13 +81,14 @@ using FanSpeeds = std::array<double, kMaxFans>;
 
 /// The speeds of the fans over one step: at its stages, and in between.
 struct FanSpeedCourse {
-  FanSpeeds start;
-  FanSpeeds middle;
-  FanSpeeds end;
+  FanSpeeds start;   // at t
+  FanSpeeds middle;  // at t + h/2
+  FanSpeeds end;     // at t + h
 
   /// Over the piece from `from` to `to` of a step of h, all in s: straight between the stages.
   FanSpeedCourse piece(double from, double to, double h) const;
 
+  /// At a stage of the step that the course is of.
   const FanSpeeds& at(Stage stage) const {
     if (stage == Stage::kStart) return start;
     return stage == Stage::kMiddle ? middle : end;
@@ -124,6 +125,7 @@ class HOVERCRAFT_PUBLIC Cushion {
   /// @param reports one for each cell, as many as cellCount().
   void report(const BodyMotion& motion, const FanSpeeds& speeds, const Ground& ground,
               CellReport* reports) const;
+  /// The same of planarWrenchInBody().
   void planarReport(const FanSpeeds& speeds, double load, CellReport* reports) const;
 
   /// The fans' speeds as they are described, at a time, s. Those that actuators turn: the greatest.
@@ -131,9 +133,9 @@ class HOVERCRAFT_PUBLIC Cushion {
   /// The greatest that they are described with.
   FanSpeeds fullSpeeds() const;
 
-  std::size_t cellCount() const { return layout_.cells.size(); }
-  const CushionParameters& parameters() const { return parameters_; }
-  const CushionLayout& layout() const { return layout_; }
+  std::size_t cellCount() const { return layout_.cells.size(); }       // as parameters()
+  const CushionParameters& parameters() const { return parameters_; }  // as given
+  const CushionLayout& layout() const { return layout_; }              // as worked out
 
  private:
   using Hem = CushionLayout::Hem;

@@ -14,13 +14,14 @@ struct GroundSample {
   double gap;         // m, height of the point above it, along its normal; negative: below it
   double nx, ny, nz;  // its normal in W, unit, nz > 0
 
+  /// As a vector.
   Vector3 normal() const { return {nx, ny, nz}; }
 };
-constexpr GroundSample kOverNothing = {kNoGround, 0.0, 0.0, 1.0};
+constexpr GroundSample kOverNothing = {kNoGround, 0.0, 0.0, 1.0};  // as where there is no ground
 
 /// A point in W, m.
 struct GroundPoint {
-  double x, y, z;
+  double x, y, z;  // m
 };
 
 /// The plane nhat · p = offset, in W.
@@ -33,8 +34,8 @@ struct GroundPlane {
 
 /// Points that ask for the ground.
 struct GroundQuery {
-  const GroundPoint* points = nullptr;
-  int count = 0;
+  const GroundPoint* points = nullptr;  // as many as count
+  int count = 0;                        // how many
   double below = 0.0;        // m: of what lies over each other the highest whose underside is lower
   double reach = kNoGround;  // m: what rises above a point by more is a wall beside it
 };
@@ -56,6 +57,7 @@ class HOVERCRAFT_PUBLIC Ground {
 /// One plane.
 class HOVERCRAFT_PUBLIC PlaneGround final : public Ground {
  public:
+  /// @param plane nhat_W of length 1.
   explicit PlaneGround(const GroundPlane& plane) : plane_(plane) {}
 
   void sample(const GroundQuery& query, GroundSample* samples) const override;

@@ -17,6 +17,7 @@ struct HeightGrid {
   double y = 0.0;               // m, of the first row
   std::vector<double> heights;  // m, row by row
 
+  /// m.
   double at(std::size_t column, std::size_t row) const { return heights[row * columns + column]; }
 };
 
@@ -24,10 +25,11 @@ struct HeightGrid {
 /// Beyond its edges the heights of the edge go on.
 class HOVERCRAFT_PUBLIC HeightMapGround final : public Ground {
  public:
+  /// @param grid at least two heights each way, and as many as it says.
   explicit HeightMapGround(HeightGrid grid);
 
   void sample(const GroundQuery& query, GroundSample* samples) const override;
-  const HeightGrid& grid() const { return grid_; }
+  const HeightGrid& grid() const { return grid_; }  // as given
 
  private:
   GroundSample sampleAt(const GroundPoint& point) const;

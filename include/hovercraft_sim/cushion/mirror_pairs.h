@@ -15,8 +15,8 @@ using MirrorPair = std::array<int, 2>;
 
 /// Something at a place, of a size (-): mirror images have equal sizes.
 struct PlacedElement {
-  Vector3 p;
-  double size = 0.0;
+  Vector3 p;          // its place
+  double size = 0.0;  // what must be equal besides the place
 };
 
 /// The order in which wrenches of elements are summed, so that those of a symmetric craft cancel to

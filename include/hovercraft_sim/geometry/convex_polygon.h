@@ -9,10 +9,11 @@ namespace hovercraft {
 
 /// A point or direction of the plane, m or without unit.
 struct Vector2 {
-  double x = 0.0;
-  double y = 0.0;
+  double x = 0.0;  // m, or without unit
+  double y = 0.0;  // likewise
 };
 
+/// Component by component; a dot product.
 inline Vector2 operator+(const Vector2& a, const Vector2& b) {
   return {a.x + b.x, a.y + b.y};
 }
@@ -43,10 +44,14 @@ class HOVERCRAFT_PUBLIC ConvexPolygon {
   /// @throws std::invalid_argument naming the worst vertex. Coordinates are finite, below 1e150 m.
   explicit ConvexPolygon(std::vector<Vector2> vertices);
 
-  int vertexCount() const { return static_cast<int>(vertices_.size()); }
+  int vertexCount() const { return static_cast<int>(vertices_.size()); }  // how many
+  /// m, counter-clockwise.
   const Vector2& vertex(int index) const { return vertices_[static_cast<std::size_t>(index)]; }
+  /// From vertex(index) to the next one.
   const Edge& edge(int index) const { return edges_[static_cast<std::size_t>(index)]; }
+  /// Index of the vertex after it.
   int next(int index) const { return index + 1 < vertexCount() ? index + 1 : 0; }
+  /// Index of the vertex before it.
   int previous(int index) const { return index > 0 ? index - 1 : vertexCount() - 1; }
   double radius() const { return radius_; }  // m, greatest distance of a vertex from the origin
 

@@ -19,10 +19,10 @@ struct PolyhedronData {
   static constexpr std::int32_t kLongLoop = 16;
 
   struct Vertex {
-    Vector3 p;
+    Vector3 p;               // place, m
     std::int32_t fan_begin;  // its edges: fan[fan_begin] ... counter-clockwise seen from outside
-    std::int32_t fan_count;
-    std::int32_t apex;  // where inner[] holds its axis, if fan_count > kLongLoop; else -1
+    std::int32_t fan_count;  // how many edges
+    std::int32_t apex;       // where inner[] holds its axis, if fan_count > kLongLoop; else -1
   };
 
   /// An edge from vertex[0] to vertex[1]; seen from outside face[0] lies to its left, face[1] to
@@ -34,7 +34,7 @@ struct PolyhedronData {
     Vector3 inward[2];  // unit, in face[i] and at right angles to the edge, into the face: the
                         // Voronoi plane between the edge and the face
     std::int32_t vertex[2];
-    std::int32_t face[2];
+    std::int32_t face[2];  // on its two sides
     std::int32_t ring[2];  // where the edge stands in the ring of face[i]
   };
 
@@ -43,8 +43,8 @@ struct PolyhedronData {
     Vector3 normal;           // unit, outward
     double offset;            // m, normal · x = offset on the face
     std::int32_t ring_begin;  // its edges: ring[ring_begin] ... counter-clockwise from outside
-    std::int32_t ring_count;
-    std::int32_t middle;  // where inner[] holds its middle, if ring_count > kLongLoop; else -1
+    std::int32_t ring_count;  // how many edges
+    std::int32_t middle;      // where inner[] holds its middle, if ring_count > kLongLoop; else -1
   };
 
   /// An edge as its face sees it: inside where inward · x >= offset.
@@ -66,17 +66,17 @@ struct PolyhedronData {
                     // its largest angle with a spoke
   };
 
-  std::vector<Vertex> vertices;
-  std::vector<Edge> edges;
-  std::vector<Face> faces;
+  std::vector<Vertex> vertices;  // their places and fans
+  std::vector<Edge> edges;       // each once
+  std::vector<Face> faces;       // their planes and rings
   std::vector<RingPlane> ring;
-  std::vector<std::int32_t> ring_edge;  // of each ring plane
-  std::vector<Spoke> fan;
+  std::vector<std::int32_t> ring_edge;   // of each ring plane
+  std::vector<Spoke> fan;                // of all vertices, one vertex after another
   std::vector<std::int32_t> fan_edge;    // of each spoke: 2 edge + (0 leaving vertex[0], else 1)
   std::vector<std::int32_t> fan_vertex;  // of each spoke: the vertex at its other end
   std::vector<std::int32_t>
-      support_map;  // support vertex for the middle of each cell of a cube map
-  std::vector<Inner> inner;
+      support_map;                   // support vertex for the middle of each cell of a cube map
+  std::vector<Inner> inner;          // of long faces and long vertices only
   std::int32_t support_cells = 0;    // cells along an edge of the cube
   double radius = 0.0;               // m, greatest distance of a vertex from the origin
   Vector3 center = Vector3::Zero();  // mean of the vertices, inside
@@ -97,14 +97,16 @@ class HOVERCRAFT_PUBLIC ConvexPolyhedron {
   ConvexPolyhedron(const std::vector<Vector3>& vertices,
                    const std::vector<std::vector<std::int32_t>>& rings);
 
-  const PolyhedronData& data() const { return data_; }
-  int vertexCount() const { return static_cast<int>(data_.vertices.size()); }
-  int edgeCount() const { return static_cast<int>(data_.edges.size()); }
-  int faceCount() const { return static_cast<int>(data_.faces.size()); }
+  const PolyhedronData& data() const { return data_; }                         // as queries read it
+  int vertexCount() const { return static_cast<int>(data_.vertices.size()); }  // how many
+  int edgeCount() const { return static_cast<int>(data_.edges.size()); }       // how many
+  int faceCount() const { return static_cast<int>(data_.faces.size()); }       // how many
   const Vector3& vertex(int index) const { return data_.vertices[at(index)].p; }
   /// All of them, m, in their order.
   std::vector<Vector3> vertices() const;
+  /// @param index 0 to edgeCount() - 1
   const PolyhedronData::Edge& edge(int index) const { return data_.edges[at(index)]; }
+  /// @param index 0 to faceCount() - 1
   const PolyhedronData::Face& face(int index) const { return data_.faces[at(index)]; }
 
   /// The vertices of a feature; of a face counter-clockwise seen from outside.

@@ -11,7 +11,7 @@ namespace hovercraft {
 
 /// What was read from a mesh file.
 struct LoadedMesh {
-  PolygonMesh mesh;
+  PolygonMesh mesh;                // in its own coordinates
   std::vector<std::string> notes;  // what was made of the file, beginning with its name
 };
 

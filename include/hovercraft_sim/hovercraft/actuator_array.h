@@ -39,22 +39,25 @@ class ActuatorArray {
     for (int i = 0; i < 3; ++i) values_[static_cast<std::size_t>(i)] = engines[i];
   }
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return size_; }  // actuators
   /// New places hold T().
   void resize(std::size_t size) {
     for (std::size_t i = size_; i < checked(size); ++i) values_[i] = T();
     size_ = size;
   }
+  /// As the last one. @throws std::logic_error beyond kMaxActuators.
   void append(const T& value) {
     size_ = checked(size_ + 1);
     values_[size_ - 1] = value;
   }
 
+  /// By id; no bounds are checked.
   T& operator[](std::size_t id) { return values_[id]; }
   const T& operator[](std::size_t id) const { return values_[id]; }
   T& operator[](ActuatorId id) { return values_[static_cast<std::size_t>(id)]; }
   const T& operator[](ActuatorId id) const { return values_[static_cast<std::size_t>(id)]; }
 
+  /// In the order of ids.
   T* begin() { return values_.data(); }
   T* end() { return values_.data() + size_; }
   const T* begin() const { return values_.data(); }
@@ -74,6 +77,7 @@ class ActuatorArray {
   std::size_t size_ = kFirstActuator;
 };
 
+/// Whether none is infinite or NaN.
 inline bool allFinite(const ActuatorArray<double>& values) {
   return std::all_of(values.begin(), values.end(),
                      [](double value) { return std::isfinite(value); });

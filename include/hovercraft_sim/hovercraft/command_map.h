@@ -13,8 +13,8 @@ enum class CommandUnit { kLevel, kNormalized };
 
 /// A point of a thrust table.
 struct ThrustKnot {
-  double command = 0.0;
-  double thrust = 0.0;  // N
+  double command = 0.0;  // in the unit of the commands
+  double thrust = 0.0;   // N
 };
 
 /// From the command of an actuator to the level that it asks for: (28) of doc/craft.md. By default
@@ -24,9 +24,10 @@ struct ThrustKnot {
 ///   unit that is said.
 /// The limits of the actuator hold afterwards.
 struct HOVERCRAFT_PUBLIC CommandMap {
-  CommandUnit unit = CommandUnit::kLevel;
-  std::vector<ThrustKnot> table;  // none, or two or more of strictly rising commands
+  CommandUnit unit = CommandUnit::kLevel;  // of the commands
+  std::vector<ThrustKnot> table;           // none, or two or more of strictly rising commands
 
+  /// Whether a command is the level.
   bool isPlain() const { return unit == CommandUnit::kLevel && table.empty(); }
 
   /// @param min,max limits of the level, <= 0 and >= 0. @returns the level, not held to them where

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -18,8 +19,8 @@ namespace hovercraft {
 /// by Chebyshev's recursion from u_x/V and u_y/V: no trigonometric function, and -β mirrors β to
 /// the last bit.
 struct DragPolar {
-  static constexpr std::size_t kTerms = 6;
-  using Terms = std::array<double, kTerms>;
+  static constexpr std::size_t kTerms = 6;   // terms of each sum
+  using Terms = std::array<double, kTerms>;  // its coefficients
 
   double air_density = kStandardAirDensity;  // kg/m³
   double area_x = 0.0;                       // m², that the bow shows
@@ -56,6 +57,14 @@ struct DragPolar {
     const double pressure = 0.5 * air_density * square;
     return {Vector3(-(pressure * area_x) * sums.x(), -(pressure * area_y) * sums.y(), 0.0),
             Vector3(0.0, 0.0, -(pressure * area_y) * (length * sums.z()))};
+  }
+
+  /// By quadratic drag of each axis, N s²/m²: what it has ahead and to the side.
+  Vector3 quadraticDrag() const {
+    const double half = 0.5 * air_density;
+    const double ahead = coefficients(1.0, 0.0).x();
+    const double sideways = coefficients(0.0, 1.0).y();
+    return {half * area_x * std::max(0.0, ahead), half * area_y * std::max(0.0, sideways), 0.0};
   }
 };
 

@@ -19,9 +19,9 @@ namespace hovercraft {
 
 /// The three engines (figure 7 of the source: c, l, p), the first of the actuators.
 using EngineId = ActuatorId;
-constexpr int kEngineCount = 3;
+constexpr int kEngineCount = 3;  // engines of a craft
 static_assert(kEngineCount == kFirstActuator, "the other actuators follow the engines");
-constexpr std::array<const char*, kEngineCount> kEngineNames = {"rear", "left", "right"};
+constexpr std::array<const char*, kEngineCount> kEngineNames = {"rear", "left", "right"};  // by id
 
 /// Simulated seconds after which an engine without a new command stops, where the scenario does not
 /// say.
@@ -42,7 +42,7 @@ struct EngineParameters {
 
 /// What an actuator remembers from one tick to the next.
 struct EngineState {
-  static constexpr Tick kNever = -1;
+  static constexpr Tick kNever = -1;  // tick of no command
 
   double commanded = 0.0;  // as received; before the first command the level, N
   double thrust = 0.0;     // N, along the engine's direction, or its level; after limits and lag
@@ -50,9 +50,9 @@ struct EngineState {
   double efficiency = 1.0;     // 0 to 1: the share that is left of what is demanded
   bool stuck = false;          // the thrust stays as it is
 
-  bool isFaulty() const { return stuck || efficiency != 1.0; }
+  bool isFaulty() const { return stuck || efficiency != 1.0; }  // whether a fault acts
 };
-using EngineStates = ActuatorArray<EngineState>;
+using EngineStates = ActuatorArray<EngineState>;  // of all actuators, by id
 
 /// Thrusts and levels as they are.
 inline ActuatorArray<double> levelsOf(const EngineStates& states) {
@@ -64,9 +64,9 @@ inline ActuatorArray<double> levelsOf(const EngineStates& states) {
 
 /// Thrusts, N, and levels of all actuators over one step: at its stages, and in between.
 struct ThrustCourse {
-  ActuatorArray<double> start;
-  ActuatorArray<double> middle;
-  ActuatorArray<double> end;
+  ActuatorArray<double> start;   // at t
+  ActuatorArray<double> middle;  // at t + h/2
+  ActuatorArray<double> end;     // at t + h
 
   /// At a share x of the step, 0 to 1: the parabola through its start, middle and end, which is
   /// exact there and off by the cube of the step over the lag in between.
@@ -102,8 +102,8 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     double half_decay = 0.0;                                // exp(-h/2τ); 0 without lag
     double full_decay = 0.0;                                // exp(-h/τ)
     Tick timeout_ticks = std::numeric_limits<Tick>::max();  // whole steps, rounded up; never
-    bool lags = false;
-    std::shared_ptr<const CommandMap> map;  // null: a command is the thrust
+    bool lags = false;                                      // time_constant > 0
+    std::shared_ptr<const CommandMap> map;                  // null: a command is the thrust
   };
 
   /// @param step_ns length of a step, ns, > 0.
@@ -130,7 +130,7 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     return demandOf(rules_[static_cast<std::size_t>(engine)], state, tick);
   }
 
-  const Rule& rule(std::size_t id) const { return rules_[id]; }
+  const Rule& rule(std::size_t id) const { return rules_[id]; }  // of an actuator
 
   /// The same of a rule that is kept elsewhere.
   static bool isTimedOut(const Rule& rule, const EngineState& state, Tick tick) {
@@ -143,6 +143,7 @@ class HOVERCRAFT_PUBLIC EngineDynamics {
     }
     return state.commanded < limits.min_thrust || state.commanded > limits.max_thrust;
   }
+  /// N or level.
   static double demandOf(const Rule& rule, const EngineState& state, Tick tick) {
     if (state.stuck) return state.thrust;
     if (isTimedOut(rule, state, tick)) return 0.0;
@@ -185,7 +186,7 @@ class HOVERCRAFT_PUBLIC EngineGeometry {
   }
   /// Column i: force (N) and moment (N m) of 1 N of engine i.
   const Matrix3& forceMap() const { return force_map_; }
-  const Matrix3& torqueMap() const { return torque_map_; }
+  const Matrix3& torqueMap() const { return torque_map_; }  // N m
 
  private:
   Matrix3 force_map_;   // column i: direction of engine i

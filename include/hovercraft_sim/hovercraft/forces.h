@@ -8,11 +8,11 @@
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/hovercraft/actuator_array.h"
-#include "hovercraft_sim/hovercraft/drag_polar.h"
+#include "hovercraft_sim/hovercraft/drag_laws.h"
 #include "hovercraft_sim/math/export.h"
 #include "hovercraft_sim/math/vector.h"
 
-/// The forces of actuators besides the three engines, and of a drag polar. Each is a value that
+/// The forces of actuators besides the three engines, and of laws of drag. Each is a value that
 /// takes what holds at a stage of a step and gives a wrench about the centre of mass in B: + - * /
 /// and sqrt only, no memory. All places and directions are in B.
 
@@ -34,21 +34,24 @@ struct ForcePlace {
   double airSpeed(const ForceInputs& inputs) const {
     return dot(inputs.u_B + cross(inputs.w_WB_B, p_BE), direction);
   }
+  /// At the place, N.
   Wrench wrench(const Vector3& force) const { return {force, cross(p_BE, force)}; }
 };
 
 /// A fan whose thrust falls with the speed of the air into its disc: T = T0 max(0, 1 - V/V0), and
 /// of a thrust backwards 1 + V/V0.
 struct FanForce {
-  std::size_t id = 0;  // its level is the thrust at rest T0, N
-  ForcePlace place;
+  std::size_t id = 0;               // its level is the thrust at rest T0, N
+  ForcePlace place;                 // of its disc
   double inverse_free_speed = 0.0;  // 1/V0, s/m; 0: the thrust does not fall
 
+  /// N, along its direction.
   double thrust(const ForceInputs& inputs) const {
     const double at_rest = inputs.levels[id];
     const double share = place.airSpeed(inputs) * inverse_free_speed;
     return at_rest * std::max(0.0, at_rest < 0.0 ? 1.0 + share : 1.0 - share);
   }
+  /// In B.
   Wrench wrench(const ForceInputs& inputs) const {
     return place.wrench(thrust(inputs) * place.direction);
   }
@@ -58,21 +61,24 @@ struct FanForce {
 /// k2 V|V|/D^2), finite at n = 0; its torque Q of the same form, times D, turns the hull against
 /// its sense of rotation.
 struct PropellerForce {
-  std::size_t id = 0;  // its level is the speed n, 1/s, positive in its sense of rotation
-  ForcePlace place;
-  double diameter = 1.0;                          // m
-  double thrust_scale = 0.0;                      // rho D^4, kg m
-  double torque_scale = 0.0;                      // rho D^5, with the sign of the sense of rotation
+  std::size_t id = 0;         // its level is the speed n, 1/s, positive in its sense of rotation
+  ForcePlace place;           // of its disc
+  double diameter = 1.0;      // m
+  double thrust_scale = 0.0;  // rho D^4, kg m
+  double torque_scale = 0.0;  // rho D^5, with the sign of the sense of rotation
   Vector3 thrust_coefficients = Vector3::Zero();  // k0, k1, k2
   Vector3 torque_coefficients = Vector3::Zero();  // q0, q1, q2
 
+  /// @param n speed, 1/s. @param v speed of the air over the diameter, 1/s.
   double form(const Vector3& k, double n, double v) const {
     return (k.x() * n * std::abs(n) + k.y() * std::abs(n) * v) + k.z() * v * std::abs(v);
   }
+  /// N, along its direction.
   double thrust(const ForceInputs& inputs) const {
     return thrust_scale *
            form(thrust_coefficients, inputs.levels[id], place.airSpeed(inputs) / diameter);
   }
+  /// In B: of the thrust at its place, and its torque.
   Wrench wrench(const ForceInputs& inputs) const {
     const double torque = torque_scale * form(torque_coefficients, inputs.levels[id],
                                               place.airSpeed(inputs) / diameter);
@@ -89,19 +95,21 @@ struct PropellerForce {
 struct RudderForce {
   std::size_t id = 0;  // its level is the angle delta, rad, right-handed about the hinge
   ForcePlace place;    // direction: that of the fan's thrust, against the stream
-  Vector3 across = Vector3::UnitY();  // unit: hinge x direction
-  double half_density_area = 0.0;     // rho S/2, kg/m
-  double lift_slope = 0.0;            // C_la, 1/rad
-  double drag_at_rest = 0.0;          // C_d0
-  double drag_growth = 0.0;           // k, 1/rad^2
-  double inverse_density_disc = 0.0;  // 1/(rho A), m/kg
-  std::variant<std::monostate, FanForce, PropellerForce> fan;
+  Vector3 across = Vector3::UnitY();                           // unit: hinge x direction
+  double half_density_area = 0.0;                              // rho S/2, kg/m
+  double lift_slope = 0.0;                                     // C_la, 1/rad
+  double drag_at_rest = 0.0;                                   // C_d0
+  double drag_growth = 0.0;                                    // k, 1/rad^2
+  double inverse_density_disc = 0.0;                           // 1/(rho A), m/kg
+  std::variant<std::monostate, FanForce, PropellerForce> fan;  // in whose slipstream it is; none
 
+  /// N; 0 without a fan.
   double thrustOfFan(const ForceInputs& inputs) const {
     if (const auto* found = std::get_if<FanForce>(&fan)) return found->thrust(inputs);
     if (const auto* found = std::get_if<PropellerForce>(&fan)) return found->thrust(inputs);
     return 0.0;
   }
+  /// In B.
   Wrench wrench(const ForceInputs& inputs) const {
     const double half = 0.5 * place.airSpeed(inputs);
     const double induced = std::max(0.0, thrustOfFan(inputs)) * inverse_density_disc;
@@ -113,14 +121,15 @@ struct RudderForce {
   }
 };
 
-/// The drag of the hull by a polar.
-struct PolarForce {
-  DragPolar polar;
+/// The drag of the hull by a law.
+struct DragForce {
+  DragLaw law;  // which one
 
-  Wrench wrench(const ForceInputs& inputs) const { return polar.wrenchInBody(inputs.u_B); }
+  Wrench wrench(const ForceInputs& inputs) const { return wrenchInBody(law, inputs.u_B); }  // in B
 };
 
-using Force = std::variant<FanForce, PropellerForce, RudderForce, PolarForce>;
+/// One kind is one alternative.
+using Force = std::variant<FanForce, PropellerForce, RudderForce, DragForce>;
 
 /// Their sum, in their order. Out of line, so that a craft without any keeps its registers.
 HOVERCRAFT_PUBLIC Wrench wrenchInBody(const std::vector<Force>& forces, const ForceInputs& inputs);

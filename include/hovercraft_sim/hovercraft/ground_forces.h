@@ -23,8 +23,9 @@ class HOVERCRAFT_PUBLIC GroundForces {
   [[gnu::noinline]] Wrench wrenchInBody(const BodyMotion& motion, const Environment& environment,
                                         const FanSpeeds& speeds) const;
 
-  const std::optional<Cushion>& cushion() const { return cushion_; }
-  const Pads& pads() const { return pads_; }
+  const std::optional<Cushion>& cushion() const { return cushion_; }  // none: no cushion
+  const Pads& pads() const { return pads_; }                          // empty: no pads
+  /// N, on the ground; only in the planar model.
   const std::optional<double>& planarLoad() const { return planar_load_; }
   /// @param reports one for each cell. Only with a cushion.
   void report(const BodyMotion& motion, const Environment& environment, const FanSpeeds& speeds,

@@ -22,10 +22,10 @@ struct GustAxis {
 };
 
 struct GustParameters {
-  GustModel model = GustModel::kDryden;
-  GustAxis along;  // along the mean wind, across it (to its left), and vertical
-  GustAxis across;
-  GustAxis vertical;
+  GustModel model = GustModel::kDryden;  // their spectrum
+  GustAxis along;     // along the mean wind, across it (to its left), and vertical
+  GustAxis across;    // likewise
+  GustAxis vertical;  // likewise
 };
 
 /// What the gusts at one body remember: two numbers of each axis.
@@ -51,7 +51,7 @@ class HOVERCRAFT_PUBLIC Gusts {
   /// The channels' names of a body.
   static std::array<std::string, 3> channelsOf(const std::string& body);
 
-  std::size_t bodyCount() const { return streams_.size(); }
+  std::size_t bodyCount() const { return streams_.size(); }  // bodies
 
   /// At tick 0 of a run, drawn from the stationary law.
   GustState start(std::size_t body, std::int64_t seed) const;

@@ -18,10 +18,10 @@ namespace hovercraft {
 /// answers (24).
 /// Frames: W world, B body (centre of mass, axes of base_link). Constant during a run.
 struct HovercraftModel {
-  Mobility mobility;
-  EngineGeometry engines;
-  Drag drag;
-  Vector3 weight_W = Vector3::Zero();                           // m g, N
+  Mobility mobility;                   // mass, inertia and how the model may move
+  EngineGeometry engines;              // where they are
+  Drag drag;                           // by body axes
+  Vector3 weight_W = Vector3::Zero();  // m g, N
   std::shared_ptr<const GroundForces> ground_forces = nullptr;  // none: nothing of it is asked
   std::vector<Force> forces = {};  // of the other actuators, in a fixed order
   std::vector<Rotor> rotors = {};  // likewise
@@ -37,6 +37,7 @@ struct HovercraftModel {
     if (rotors.empty()) return mobility.angularVelocityInBody(angular_momentum_W, R_WB);
     return mobility.angularVelocityInBody(angular_momentum_W, R_WB, rotorMomentum(rotors, levels));
   }
+  /// Of the centre of mass, in W. @param levels of its actuators.
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state, const ActuatorArray<double>& levels) const {
     if (rotors.empty()) return mobility.twist(state);

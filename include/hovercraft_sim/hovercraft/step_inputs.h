@@ -19,30 +19,31 @@ struct ExternalLoad {
 /// All that determines the motion of one body in a step besides its state and contact: the same for
 /// a craft and for a loose body, whose engines have no thrust.
 struct StepInputs {
-  ThrustCourse thrusts;    // of the whole step
-  bool is_steady = false;  // they are the same at all stages
-  ExternalLoad load;
-  bool is_loaded = false;  // else `load` counts for nothing
-  Environment environment;
+  ThrustCourse thrusts;            // of the whole step
+  bool is_steady = false;          // they are the same at all stages
+  ExternalLoad load;               // besides engines, drag and weight
+  bool is_loaded = false;          // else `load` counts for nothing
+  Environment environment;         // wind and ground
   FanSpeedCourse fan_speeds = {};  // of the whole step; of a craft with a cushion
 };
 
 /// A piece of a step, s from its start; contact cuts a step at every impact.
 struct StepPiece {
-  double from = 0.0;
-  double to = 0.0;
+  double from = 0.0;  // where it begins
+  double to = 0.0;    // where it ends
   bool in_contact = false;  // both Eulers give way to Heun's method (doc/contact.md)
 };
 
 /// One body during one piece of a step: the system that a stepper integrates.
 struct DrivenBody {
-  const HovercraftModel& model;
-  const ThrustCourse& thrusts;  // at the start, middle and end of the piece
-  const Environment& environment;
+  const HovercraftModel& model;                // of the body
+  const ThrustCourse& thrusts;                 // at the start, middle and end of the piece
+  const Environment& environment;              // of the step
   const ExternalLoad* load = nullptr;          // none
   const FanSpeedCourse* fan_speeds = nullptr;  // over the piece; of a craft with ground forces
   bool is_steady = false;                      // the thrusts are the same at all stages
 
+  /// dY/dt at a stage of the piece.
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
@@ -63,6 +64,7 @@ struct DrivenBody {
     rate.force_W += pushed.force;
     rate.torque_W += pushed.torque;
   }
+  /// Of the centre of mass, in W, at the end of the piece.
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
     return model.twist(state, thrusts.end);
@@ -72,15 +74,17 @@ struct DrivenBody {
 /// A spatial body on which nothing but engines, drag and weight acts, by the wrenches of its
 /// engines at the stages: the same system, for less.
 struct DrivenBodyOfEngines {
-  const DrivenBody& body;
-  const Wrench* start;  // in B
-  const Wrench* middle;
-  const Wrench* end;
+  const DrivenBody& body;  // whose model, environment and load count
+  const Wrench* start;     // in B
+  const Wrench* middle;    // likewise
+  const Wrench* end;       // likewise
 
+  /// That of a stage.
   const Wrench& at(Stage stage) const {
     if (stage == Stage::kStart) return *start;
     return stage == Stage::kMiddle ? *middle : *end;
   }
+  /// dY/dt, as DrivenBody.
   template <class Orientation>
   StateDerivative<Orientation> derivative(const RigidBodyState<Orientation>& state,
                                           Stage stage) const {
@@ -89,6 +93,7 @@ struct DrivenBodyOfEngines {
     body.addLoad(state, rate);
     return rate;
   }
+  /// Of the centre of mass, in W.
   template <class Orientation>
   Twist twist(const RigidBodyState<Orientation>& state) const {
     return body.model.mobility.twist(state);

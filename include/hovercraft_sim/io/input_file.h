@@ -17,15 +17,18 @@ enum class InputKind {
 /// A file descriptor that is closed with its owner.
 class HOVERCRAFT_PUBLIC Descriptor {
  public:
+  /// @param number as open() gives it; -1: none.
   explicit Descriptor(int number = -1) : number_(number) {}
   Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
+  /// Closes what it had.
   Descriptor& operator=(Descriptor&& other) noexcept;
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor();
 
-  int number() const { return number_; }
-  bool isOpen() const { return number_ >= 0; }
+  int number() const { return number_; }        // -1: none
+  bool isOpen() const { return number_ >= 0; }  // whether it has one
+  /// The number, which the caller closes; it has none then.
   int release();
 
  private:
@@ -41,6 +44,7 @@ HOVERCRAFT_PUBLIC const char* kindOfFile(unsigned int mode);
 /// of what stands in it.
 class HOVERCRAFT_PUBLIC InputFile {
  public:
+  /// Opens it without waiting. @throws std::invalid_argument
   InputFile(const std::string& path, InputKind kind);
 
   /// The next line without its end; false at the end of the file.

@@ -9,10 +9,10 @@ namespace hovercraft {
 /// q and -q are the same rotation. Not Eigen's: its alignment depends on the instruction set, and
 /// so do its products.
 struct Quaternion {
-  double s = 1.0;
-  Vector3 v = Vector3::Zero();
+  double s = 1.0;               // scalar part
+  Vector3 v = Vector3::Zero();  // vector part
 
-  static Quaternion identity() { return {}; }
+  static Quaternion identity() { return {}; }  // no turn
 };
 
 /// Element by element: quaternions as vectors of four dimensions.
@@ -33,10 +33,12 @@ inline Quaternion conjugate(const Quaternion& q) {
   return {q.s, -q.v};
 }
 
+/// Of its four numbers.
 inline double squaredNorm(const Quaternion& q) {
   return q.s * q.s + dot(q.v, q.v);
 }
 
+/// Its length.
 inline double norm(const Quaternion& q) {
   return std::sqrt(squaredNorm(q));
 }

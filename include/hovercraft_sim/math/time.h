@@ -7,6 +7,7 @@ namespace hovercraft {
 /// Number of a simulation step: t = tick · step size. Time is counted, never summed up.
 using Tick = std::int64_t;
 
+/// ns in 1 s.
 constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
 
 /// Whole nanoseconds as seconds, rounded once.

@@ -16,7 +16,7 @@ namespace hovercraft {
 /// Eigen::Vector3d and Eigen::Matrix3d. The order of the columns is named, as a program may set
 /// another default (EIGEN_DEFAULT_TO_ROW_MAJOR).
 using Vector3 = Eigen::Matrix<double, 3, 1, Eigen::ColMajor>;
-using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::ColMajor>;
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::ColMajor>;  // column by column
 
 // Library and program must agree where the members of a class lie, whatever each was compiled with.
 // Eigen aligns what fills whole registers, such as Vector4d, Matrix4d or Quaterniond, as the
@@ -35,10 +35,12 @@ inline Vector3 cross(const Vector3& a, const Vector3& b) {
           a.x() * b.y() - a.y() * b.x()};
 }
 
+/// In this order of operations; no scaling: it overflows where the square of a component does.
 inline double squaredNorm(const Vector3& a) {
   return dot(a, a);
 }
 
+/// Likewise.
 inline double norm(const Vector3& a) {
   return std::sqrt(squaredNorm(a));
 }
@@ -77,6 +79,7 @@ inline Matrix3 cofactor(const Matrix3& A) {
   return result;
 }
 
+/// By the triple product of its columns.
 inline double determinant(const Matrix3& A) {
   const Vector3 a = A.col(0);
   const Vector3 b = A.col(1);

@@ -23,11 +23,14 @@ class HOVERCRAFT_PUBLIC BodyMessages {
   /// @param body index into the loose bodies of the scenario's world.
   BodyMessages(const hovercraft::Scenario& scenario, std::size_t body, const TfFrames& frames);
 
+  /// From the simulation as it stands.
   void fill(const hovercraft::Simulation& simulation, const ros::Time& stamp);
 
-  const std::string& name() const { return description_.name; }
-  const geometry_msgs::PoseStamped& pose() const { return pose_; }
-  const geometry_msgs::TransformStamped& transform() const { return transform_; }
+  const std::string& name() const { return description_.name; }     // of the body
+  const geometry_msgs::PoseStamped& pose() const { return pose_; }  // of its frame in W
+  const geometry_msgs::TransformStamped& transform() const {
+    return transform_;
+  }  // the same for tf
 
  private:
   hovercraft::VehicleScenario description_;

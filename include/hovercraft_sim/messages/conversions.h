@@ -24,6 +24,7 @@
 
 namespace hovercraft_ros {
 
+/// Number by number, in the same unit.
 HOVERCRAFT_PUBLIC geometry_msgs::Vector3 toVector3Message(const hovercraft::Vector3& v);
 HOVERCRAFT_PUBLIC geometry_msgs::Point toPointMessage(const hovercraft::Vector3& p);
 HOVERCRAFT_PUBLIC geometry_msgs::Quaternion toQuaternionMessage(const hovercraft::Quaternion& q);
@@ -34,10 +35,10 @@ HOVERCRAFT_PUBLIC hovercraft::Quaternion fromMessage(const geometry_msgs::Quater
 /// Motion of the hull frame H (base_link), which differs from the body frame B by the place of the
 /// centre of mass.
 struct HullMotion {
-  hovercraft::Vector3 p_WH;  // m, in W
-  hovercraft::Quaternion q_WH;
-  hovercraft::Vector3 v_WH_H;  // velocity of base_link's origin, in base_link's axes, m/s
-  hovercraft::Vector3 w_WH_H;  // rad/s, in base_link's axes
+  hovercraft::Vector3 p_WH;     // m, in W
+  hovercraft::Quaternion q_WH;  // H -> W
+  hovercraft::Vector3 v_WH_H;   // velocity of base_link's origin, in base_link's axes, m/s
+  hovercraft::Vector3 w_WH_H;   // rad/s, in base_link's axes
 };
 
 /// @param p_HB the centre of mass in H, m.
@@ -48,6 +49,7 @@ HOVERCRAFT_PUBLIC HullMotion hullMotion(const hovercraft::Motion& motion,
 /// turn from x.
 HOVERCRAFT_PUBLIC hovercraft::Quaternion turnFromX(const hovercraft::Vector3& direction);
 
+/// Number by number.
 HOVERCRAFT_PUBLIC hovercraft_sim::Engine toMessage(const hovercraft::EngineReport& report);
 HOVERCRAFT_PUBLIC hovercraft_sim::AppliedCommand toMessage(const hovercraft::Command& command);
 

@@ -22,15 +22,18 @@
 
 namespace hovercraft_ros {
 
-constexpr const char* kOdometryTopic = "odometry";
+/// Of the first odometry sensor of a craft, relative to its namespace.
+constexpr const char* kOdometryTopic =
+    hovercraft::traitsOf(hovercraft::SensorKind::kOdometry).topic;
+/// Last part of the frame in which it counts.
 constexpr const char* kOdometryFrame = "odom";
 
 /// What one sensor tells: filled again with each sample.
 struct SensorMessage {
-  hovercraft::SensorParameters parameters;
-  std::string topic;           // relative to the craft's namespace
-  std::string velocity_topic;  // of GNSS; else empty
-  /// In the order of SensorKind.
+  hovercraft::SensorParameters parameters;  // of the sensor
+  std::string topic;                        // relative to the craft's namespace
+  std::string velocity_topic;               // of GNSS; else empty
+  /// One kind of sensor is one alternative, in the order of SensorKind.
   std::variant<sensor_msgs::Imu, sensor_msgs::NavSatFix, nav_msgs::Odometry,
                sensor_msgs::MagneticField, sensor_msgs::LaserScan>
       message;
@@ -56,7 +59,8 @@ class HOVERCRAFT_PUBLIC SensorMessages {
   /// base_link -> each sensor.
   std::vector<geometry_msgs::TransformStamped> sensorFrames(const ros::Time& stamp) const;
 
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return name_; }  // of the craft
+  /// In the order of its sensors.
   const std::vector<SensorMessage>& messages() const { return messages_; }
 
  private:

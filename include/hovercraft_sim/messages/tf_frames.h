@@ -4,14 +4,14 @@
 
 namespace hovercraft_ros {
 
-constexpr const char* kDefaultWorldFrame = "world";
-constexpr const char* kBaseFrame = "base_link";  // of a craft or a loose body
+constexpr const char* kDefaultWorldFrame = "world";  // where no other is asked for
+constexpr const char* kBaseFrame = "base_link";      // of a craft or a loose body
 
 /// What the frames of a run are called in tf: NAME/base_link, or PREFIX/NAME/base_link, so that
 /// several simulations can share one tf tree. The world is theirs together and takes no prefix.
 struct TfFrames {
-  std::string world = kDefaultWorldFrame;
-  std::string prefix;  // without a slash at its ends; empty: none
+  std::string world = kDefaultWorldFrame;  // of all simulations
+  std::string prefix;                      // without a slash at its ends; empty: none
 
   /// @param name of a craft or a loose body. @param frame of it.
   std::string of(const std::string& name, const std::string& frame = kBaseFrame) const {

@@ -41,6 +41,7 @@ constexpr const char* kStatesTopic = "states";
 /// Whether the true odometry may be on it: a topic below the craft's namespace, truth/odom, whose
 /// first and last parts are no topic of something else.
 HOVERCRAFT_PUBLIC bool isTopicForTruth(const std::string& topic);
+/// The rule in words, for messages.
 constexpr const char* kTruthOdomRuleText =
     "must be a topic below the craft's namespace, such as truth/odom, and not that of something "
     "else";
@@ -57,13 +58,14 @@ struct RunStamp {
 
 /// Which messages of a craft are wanted: what nobody hears is not filled.
 struct MessageParts {
-  bool frames = false;  // pose, twist, odom, transform
-  bool engines = false;
-  bool actuators = false;
-  bool state = false;  // with its hash
-  bool wind = false;
-  bool cushion = false;
+  bool frames = false;     // pose, twist, odom, transform
+  bool engines = false;    // EngineStatus
+  bool actuators = false;  // ActuatorStatusArray
+  bool state = false;      // with its hash
+  bool wind = false;       // Wind
+  bool cushion = false;    // Cushion
 
+  /// Every message.
   static MessageParts all() { return {true, true, true, true, true, true}; }
 };
 
@@ -77,7 +79,7 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
 
   /// Whether tf has the craft's true pose.
   bool hasTransform() const { return tf() == hovercraft::TfSource::kTruth; }
-  hovercraft::TfSource tf() const { return description_.tf; }
+  hovercraft::TfSource tf() const { return description_.tf; }  // of the scenario
 
   /// Fills every message from the simulation as it stands.
   void fill(const hovercraft::Simulation& simulation, const RunStamp& place) {
@@ -94,6 +96,7 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   /// base_link -> engine_rear, engine_left, engine_right; x along the positive thrust.
   std::vector<geometry_msgs::TransformStamped> engineFrames(const ros::Time& stamp) const;
 
+  /// Of the craft, and its messages as fill() left them.
   const std::string& name() const { return description_.name; }
   const geometry_msgs::PoseStamped& pose() const { return pose_; }
   const geometry_msgs::TwistStamped& twist() const { return twist_; }
@@ -102,10 +105,10 @@ class HOVERCRAFT_PUBLIC VehicleMessages {
   const hovercraft_sim::EngineStatus& engines() const { return engines_; }
   /// Empty if the craft has no actuators besides its engines.
   const hovercraft_sim::ActuatorStatusArray& actuators() const { return actuators_; }
-  bool hasActuators() const { return !actuators_.actuators.empty(); }
+  bool hasActuators() const { return !actuators_.actuators.empty(); }  // besides its engines
   const hovercraft_sim::State& state() const { return state_; }
-  const hovercraft_sim::Wind& wind() const { return wind_; }
-  bool hasCushion() const { return description_.cushion.has_value(); }
+  const hovercraft_sim::Wind& wind() const { return wind_; }            // at the craft
+  bool hasCushion() const { return description_.cushion.has_value(); }  // of the scenario
   /// Of a craft that has one.
   const hovercraft_sim::Cushion& cushion() const { return cushion_; }
 

@@ -14,11 +14,11 @@ namespace hovercraft {
 
 /// A number by the name that the ITTC has for it.
 struct Measure {
-  std::string name;
-  std::string unit;  // m, s, m/s, deg, deg/s, percent; empty: none
-  double value = 0.0;
+  std::string name;    // such as steady turning radius
+  std::string unit;    // m, s, m/s, deg, deg/s, percent; empty: none
+  double value = 0.0;  // in that unit
 };
-using Measures = std::vector<Measure>;
+using Measures = std::vector<Measure>;  // of one manoeuvre
 
 /// The motion of a manoeuvre at every decision, from its first execute on.
 using Track = std::vector<PlanarMotion>;
@@ -29,6 +29,7 @@ HOVERCRAFT_PUBLIC Measures approachMeasures(const Track& track);
 /// @param executes indices of the track at which the helm was put over, the first one is 0.
 HOVERCRAFT_PUBLIC Measures zigZagMeasures(const Track& track,
                                           const std::vector<std::size_t>& executes, Side first);
+/// @param side of the turn. @param track not empty.
 HOVERCRAFT_PUBLIC Measures turningCircleMeasures(const Track& track, Side side);
 /// @param reversal index of the track at which the helm went to the other side; its size: never.
 HOVERCRAFT_PUBLIC Measures figureOfEightMeasures(const Track& track, std::size_t reversal,

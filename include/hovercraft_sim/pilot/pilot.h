@@ -14,14 +14,14 @@ namespace hovercraft {
 
 /// A manoeuvre that was flown, and what it came to.
 struct FlownManoeuvre {
-  std::string name;
+  std::string name;         // of the plan
   std::string kind;         // zig_zag, turning_circle, ...
   bool is_complete = true;  // false: it was given up, or never began
   std::string reason;       // why it was given up
   double begin = 0.0;       // s: of the approach
   double execute = 0.0;     // s: of the first execute; if it was given up before, its end
   double end = 0.0;         // s
-  Measures measures;
+  Measures measures;        // what it came to
 };
 
 /// What it came to, a line each, for people.
@@ -32,12 +32,14 @@ HOVERCRAFT_PUBLIC std::string toText(const FlownManoeuvre& flown);
 /// told, so the same motions give the same levels, to the last bit, live or not.
 class HOVERCRAFT_PUBLIC Pilot {
  public:
+  /// @param plan as it was parsed.
   explicit Pilot(PilotPlan plan);
 
   /// @param motion at this decision; times go up.
   /// @returns what the channels are to be set to; empty once the plan is flown.
   const Levels& decide(const PlanarMotion& motion);
 
+  /// Whether all of the plan is flown.
   bool isDone() const { return current_ >= plan_.manoeuvres.size(); }
   /// Those that ended, in their order.
   const std::vector<FlownManoeuvre>& flown() const { return flown_; }

@@ -75,6 +75,7 @@ struct SimulateRequest {
   bool hold = false;                           // commands hold for ever: every time-out is 0
   bool shows_progress = false;                 // a bar, while it runs
 };
+/// ns that a run goes on after its last command, where no end is said.
 constexpr std::int64_t kAfterLastCommandNs = 1000000000;
 
 /// Runs a scenario as fast as it goes. Says in `messages` which engines timed out, and at the end

@@ -11,7 +11,7 @@ namespace hovercraft {
 
 /// Where a craft is at one time and how it moves: W world, B the frame that the trajectory follows.
 struct TrajectorySample {
-  std::int64_t time_ns = 0;
+  std::int64_t time_ns = 0;        // ns
   Vector3 p_WB = Vector3::Zero();  // m
   Quaternion q_WB;                 // B -> W
   Vector3 v_WB = Vector3::Zero();  // m/s, in W
@@ -24,7 +24,7 @@ struct Trajectory {
   std::string source;           // for people: which file, which topic, which point of the craft
   bool has_velocities = true;   // else v_WB and w_WB mean nothing
   bool holds_time_zero = true;  // false for a bag: ROS takes time 0 for no time
-  std::vector<TrajectorySample> samples;
+  std::vector<TrajectorySample> samples;  // in the order of time
 };
 
 }  // namespace hovercraft

@@ -8,8 +8,8 @@
 
 namespace hovercraft {
 
-/// The forces of a craft's actuators besides its engines, in the order of their ids. A lift fan has
-/// none of its own.
+/// The forces of a craft's laws of drag, then of its actuators besides its engines, in the order of
+/// their ids. A lift fan has none of its own.
 std::vector<Force> forcesOf(const VehicleScenario& vehicle);
 
 /// The rotors of its engines and other actuators, in the order of their ids.

@@ -28,13 +28,6 @@ void parseAir(const ConfigReader& top, Scenario& scenario);
 /// The text of `gusts` for toYaml(); empty without them.
 std::string gustsYaml(const Scenario& scenario);
 
-/// The map behind `polar` of a `drag`; none without it. One that would give energy to the craft, in
-/// any of 720 directions of the air, is refused. @throws std::invalid_argument
-[[nodiscard]] std::optional<DragPolar> parsePolar(const ConfigReader& drag);
-
-/// The text of `polar` within the braces of `drag`; empty without one.
-std::string polarYaml(const VehicleScenario& vehicle);
-
 /// The names of all bodies, vehicles first, then loose ones.
 std::vector<std::string> bodyNames(const Scenario& scenario);
 

@@ -16,21 +16,24 @@ namespace hovercraft {
 class HOVERCRAFT_PUBLIC ConfigNode {
  public:
   enum class Kind { kNull, kText, kList, kMap };
-  using List = std::vector<ConfigNode>;
+  using List = std::vector<ConfigNode>;                         // in the order of the text
   using Map = std::vector<std::pair<std::string, ConfigNode>>;  // in the order of the text
 
   ConfigNode() = default;  // nothing
   /// @param is_plain not in quotes: it may be a number or true or false.
   static ConfigNode ofText(std::string text, bool is_plain);
+  /// @param items in their order.
   static ConfigNode ofList(List items);
   /// @param members each key once.
   static ConfigNode ofMap(Map members);
 
+  /// What it is.
   Kind kind() const { return content_ ? content_->kind : Kind::kNull; }
   bool isNull() const { return kind() == Kind::kNull; }
   bool isMap() const { return kind() == Kind::kMap; }
   bool isList() const { return kind() == Kind::kList; }
   bool isText() const { return kind() == Kind::kText; }
+  /// A text that was not in quotes.
   bool isPlainText() const { return isText() && content_->is_plain; }
 
   /// Empty if it is no text, no list, no map.
@@ -45,7 +48,7 @@ class HOVERCRAFT_PUBLIC ConfigNode {
   std::size_t size() const { return content_ ? content_->size : 1; }
   /// How many lists and maps lie within each other: 0 for a text.
   std::size_t depth() const { return content_ ? content_->depth : 0; }
-  static constexpr std::size_t kTextPerValue = 64;
+  static constexpr std::size_t kTextPerValue = 64;  // bytes
 
   /// The beginning of the value as YAML on one line, without quotes.
   /// @param least how many bytes of it are wanted; there may be more.

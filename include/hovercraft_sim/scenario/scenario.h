@@ -16,7 +16,7 @@
 #include "hovercraft_sim/cushion/height_map.h"
 #include "hovercraft_sim/cushion/pads.h"
 #include "hovercraft_sim/hovercraft/drag.h"
-#include "hovercraft_sim/hovercraft/drag_polar.h"
+#include "hovercraft_sim/hovercraft/drag_laws.h"
 #include "hovercraft_sim/hovercraft/engines.h"
 #include "hovercraft_sim/hovercraft/gusts.h"
 #include "hovercraft_sim/math/time.h"
@@ -33,18 +33,18 @@ enum class TfSource { kTruth, kOdometry, kNone };
 
 /// The solids that a craft may be composed of; lengths in m.
 struct BoxShape {
-  Vector3 size;
+  Vector3 size;  // along x, y, z
 };
 struct CylinderShape {
-  double radius;
+  double radius;  // of a circle about z
   double length;  // along z
 };
 struct ConeShape {
-  double radius;
+  double radius;  // of its base
   double length;  // along z, apex up, origin at the middle of the axis
 };
 struct SphereShape {
-  double radius;
+  double radius;  // about the origin
 };
 struct MeshShape {
   std::string file;                 // as resolved: an absolute path
@@ -53,20 +53,21 @@ struct MeshShape {
 
 /// One homogeneous part of a craft, placed in the hull frame H.
 struct PartScenario {
-  std::variant<BoxShape, CylinderShape, ConeShape, SphereShape, MeshShape> shape;
-  double mass = 0.0;               // kg
-  Vector3 p_HP = Vector3::Zero();  // position, m
-  Vector3 rpy = Vector3::Zero();   // fixed-axis roll, pitch, yaw, rad
+  std::variant<BoxShape, CylinderShape, ConeShape, SphereShape, MeshShape> shape;  // what it is of
+  double mass = 0.0;                                                               // kg
+  Vector3 p_HP = Vector3::Zero();                                                  // position, m
+  Vector3 rpy = Vector3::Zero();  // fixed-axis roll, pitch, yaw, rad
 };
 
 /// The vertices of a convex body.
 struct PointsShape {
-  std::vector<Vector3> points;
+  std::vector<Vector3> points;  // m, in its frame
 };
 
 /// The convex body by which something meets others, placed in its frame H. A sphere is a polyhedron
 /// of 162 vertices on it, a cylinder a prism of 24 sides in it.
 struct HullScenario {
+  /// The body, in a frame S of its own.
   std::variant<BoxShape, CylinderShape, SphereShape, PointsShape> shape;
   Vector3 p_HS = Vector3::Zero();  // position, m
   Vector3 rpy = Vector3::Zero();   // rad
@@ -92,22 +93,22 @@ struct VisualScenario {
 /// One craft. Parts and engines are placed in the hull frame H (base_link); the initial motion is
 /// that of the body frame B at the centre of mass, in W.
 struct VehicleScenario {
-  std::string name;
-  MassProperties mass_properties;   // in H
-  std::vector<PartScenario> parts;  // empty if mass and inertia were given
-  std::array<EngineParameters, kEngineCount> engines;
-  std::array<CommandTopic, kEngineCount> engine_topics;
+  std::string name;                                      // its key
+  MassProperties mass_properties;                        // in H
+  std::vector<PartScenario> parts;                       // empty if mass and inertia were given
+  std::array<EngineParameters, kEngineCount> engines;    // rear, left, right
+  std::array<CommandTopic, kEngineCount> engine_topics;  // likewise
   std::array<bool, kEngineCount> has_engine = {true, true, true};  // else its limits are 0
   std::vector<ActuatorScenario> actuators;                         // by name; ids from 3 on
-  Drag drag;
-  std::optional<DragPolar> polar;  // besides it
-  std::optional<CushionParameters> cushion;
+  Drag drag;                                                       // by body axes
+  std::vector<DragLaw> drag_laws;            // besides it, in the order of DragLaw
+  std::optional<CushionParameters> cushion;  // none: no cushion
   std::optional<HullScenario>
       hull;  // none: the convex hull of the parts, in a scenario with a world or a ground
-  std::optional<VisualScenario> visual;
-  std::size_t material = 0;               // index into WorldScenario::materials
-  std::vector<SensorParameters> sensors;  // by name
-  TfSource tf = TfSource::kTruth;
+  std::optional<VisualScenario> visual;    // none: its shapes are drawn
+  std::size_t material = 0;                // index into WorldScenario::materials
+  std::vector<SensorParameters> sensors;   // by name
+  TfSource tf = TfSource::kTruth;          // of base_link
   Vector3 initial_p_WB = Vector3::Zero();  // m
   Vector3 initial_rpy = Vector3::Zero();   // rad
   Vector3 initial_v_WB = Vector3::Zero();  // m/s
@@ -133,23 +134,23 @@ struct HeightMapScenario {
 /// Ground besides the obstacles of a world.
 struct GroundScenario {
   std::variant<PlaneScenario, HeightMapScenario> surface;
-  PadParameters pads;
+  PadParameters pads;  // of hulls on it
 };
 
 struct MaterialScenario {
-  std::string name;
+  std::string name;  // its key
   ContactMaterial surface;
 };
 
 /// The law between two materials where it is not the combined one.
 struct MaterialPairScenario {
-  std::size_t first = 0;  // indices of materials
-  std::size_t second = 0;
-  ContactMaterial law;
+  std::size_t first = 0;   // indices of materials
+  std::size_t second = 0;  // likewise
+  ContactMaterial law;     // in place of the combined one
 };
 
 struct ObstacleScenario {
-  std::string name;
+  std::string name;                      // its key
   HullScenario hull;                     // placed in W
   std::optional<VisualScenario> visual;  // placed in the frame of the hull's shape
   std::size_t material = 0;
@@ -162,25 +163,25 @@ struct WorldScenario {
   double tolerance = 1e-6;                                      // m
   double rest_speed = 0.01;                                     // m/s
   std::vector<MaterialScenario> materials = {{"default", {}}};  // "default" first, then by name
-  std::vector<MaterialPairScenario> material_pairs;
-  std::vector<ObstacleScenario> obstacles;  // by name
-  std::vector<VehicleScenario> bodies;      // by name
+  std::vector<MaterialPairScenario> material_pairs;             // none: the combined laws
+  std::vector<ObstacleScenario> obstacles;                      // by name
+  std::vector<VehicleScenario> bodies;                          // by name
 };
 
 /// Everything that determines a run except the commands; checked when it was read
 /// (scenario_parser.h).
 struct Scenario {
-  std::int64_t step_ns = 0;  // ns
-  Integrator integrator = Integrator::kHeun;
-  OrientationKind orientation = OrientationKind::kQuaternion;
-  BodyModel model = BodyModel::kPlanar;
-  Vector3 gravity = Vector3::Zero();  // m/s², in W
-  Vector3 wind = Vector3::Zero();     // m/s, in W: the mean
-  std::optional<GustParameters> gusts;
-  std::int64_t seed = 1;
-  std::vector<VehicleScenario> vehicles;  // in the order of their names
-  std::optional<WorldScenario> world;     // none: craft pass through each other
-  std::optional<GroundScenario> ground;   // none: the obstacles of the world, if there are any
+  std::int64_t step_ns = 0;                                    // ns
+  Integrator integrator = Integrator::kHeun;                   // how a step is made
+  OrientationKind orientation = OrientationKind::kQuaternion;  // what is integrated
+  BodyModel model = BodyModel::kPlanar;                        // planar or spatial
+  Vector3 gravity = Vector3::Zero();                           // m/s², in W
+  Vector3 wind = Vector3::Zero();                              // m/s, in W: the mean
+  std::optional<GustParameters> gusts;                         // none: the air has the mean wind
+  std::int64_t seed = 1;                                       // of all noise
+  std::vector<VehicleScenario> vehicles;                       // in the order of their names
+  std::optional<WorldScenario> world;    // none: craft pass through each other
+  std::optional<GroundScenario> ground;  // none: the obstacles of the world, if there are any
 
   double stepSize() const { return toSeconds(step_ns); }  // s
 };

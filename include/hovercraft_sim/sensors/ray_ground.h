@@ -12,8 +12,11 @@ namespace hovercraft {
 /// The ground that rays may hit: a plane, or a map of heights, bilinear within each mesh.
 class HOVERCRAFT_PUBLIC RayGround {
  public:
+  /// @param plane nhat_W of length 1, pointing up.
   explicit RayGround(const GroundPlane& plane) : plane_(plane) {}
+  /// @param map that is not null.
   explicit RayGround(std::shared_ptr<const HeightMapGround> map);
+  /// A map of its own.
   explicit RayGround(const HeightGrid& grid);
 
   /// The nearest hit of each beam, as castBeams(); of a map exact within each mesh, where the

@@ -23,18 +23,18 @@ struct HOVERCRAFT_PUBLIC RayTarget {
   RayTarget(const ConvexPolyhedron& polyhedron, std::int32_t moving_body,
             const Pose& place = Pose());
 
-  HOVERCRAFT_HIDDEN static constexpr std::int32_t kFixed = -1;
-  std::int32_t moving = kFixed;
-  Pose X_WT;                     // of a fixed one
-  std::vector<HalfSpace> faces;  // in T
-  Vector3 center_T;
-  double radius = 0.0;  // m, of the ball around the center
+  HOVERCRAFT_HIDDEN static constexpr std::int32_t kFixed = -1;  // no index
+  std::int32_t moving = kFixed;                                 // index of the body that it is
+  Pose X_WT;                                                    // of a fixed one
+  std::vector<HalfSpace> faces;                                 // in T
+  Vector3 center_T;                                             // m, of the ball
+  double radius = 0.0;                                          // m, of the ball around the center
 };
 
 /// The beams of a scanner: directions in the xy plane of its frame S.
 struct BeamFan {
-  std::vector<double> cosines;
-  std::vector<double> sines;
+  std::vector<double> cosines;  // of the angles from x
+  std::vector<double> sines;    // of the same
 };
 
 /// The nearest hit of each beam with one target: t_in = max over entering faces, t_out = min over

@@ -17,10 +17,10 @@ class SampleQueue {
   SampleQueue(std::size_t capacity, std::size_t width)
       : width_(width), ticks_(capacity), values_(capacity * width) {}
 
-  std::size_t size() const { return count_; }
-  std::size_t capacity() const { return ticks_.size(); }
-  std::size_t width() const { return width_; }
-  bool empty() const { return count_ == 0; }
+  std::size_t size() const { return count_; }             // samples that wait
+  std::size_t capacity() const { return ticks_.size(); }  // samples that fit
+  std::size_t width() const { return width_; }            // doubles of a sample
+  bool empty() const { return count_ == 0; }              // whether none waits
 
   /// A new last sample, measured at `tick`. @returns its values, to be filled.
   double* push(Tick tick) {
@@ -38,6 +38,7 @@ class SampleQueue {
   }
   /// @param index 0: the first one.
   Tick tick(std::size_t index) const { return ticks_[slotOf(index)]; }
+  /// Of the sample of that index; as many as width().
   const double* values(std::size_t index) const { return values_.data() + slotOf(index) * width_; }
 
  private:

@@ -22,13 +22,13 @@ using BodyStates = std::vector<BodyState>;
 
 /// The craft of a sensor at one tick, and what is around it.
 struct SensedInstant {
-  std::int64_t seed = 0;
-  Tick tick = 0;
-  Vector3 p_WB;
-  Quaternion q_WB;
-  Matrix3 R_WB;
-  Twist twist;  // in W
-  const BodyStates* bodies = nullptr;
+  std::int64_t seed = 0;               // of the run
+  Tick tick = 0;                       // of the sample
+  Vector3 p_WB;                        // m, of the centre of mass
+  Quaternion q_WB;                     // B -> W
+  Matrix3 R_WB;                        // the same as a matrix
+  Twist twist;                         // in W
+  const BodyStates* bodies = nullptr;  // where all of them are
 };
 
 /// One sensor of a craft: a pure function of the instant and of its memory, which is an array of
@@ -40,6 +40,7 @@ class SensorModel {
   SensorModel& operator=(const SensorModel&) = delete;
   virtual ~SensorModel() = default;
 
+  /// Doubles of its memory, and of a sample: the same for the whole life of the model.
   virtual std::size_t memorySize() const = 0;
   virtual std::size_t sampleSize() const = 0;
   /// Fills the memory at the start of a run.

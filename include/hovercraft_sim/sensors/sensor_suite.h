@@ -19,42 +19,44 @@ namespace hovercraft {
 
 /// What determines the future of one sensor: its memory, and the samples that are on their way.
 struct SensorState {
-  std::vector<double> memory;
-  SampleQueue pending;
+  std::vector<double> memory;  // of its model
+  SampleQueue pending;         // measured, not yet delivered
 };
 
 /// A sample as it is delivered.
 struct SensorSample {
-  std::size_t vehicle = 0;
+  std::size_t vehicle = 0;         // index into the carriers
   std::size_t sensor = 0;          // index into the craft's sensors
   Tick measured = 0;               // the tick that it is of
   Tick delivered = 0;              // the tick that it comes at
   const double* values = nullptr;  // as sampleFields(); valid during the call
-  std::size_t count = 0;
+  std::size_t count = 0;           // how many values
 };
-using SampleSink = std::function<void(const SensorSample&)>;
+using SampleSink = std::function<void(const SensorSample&)>;  // called for each
 
 /// A craft and what it carries.
 struct SensorCarrier {
-  std::string name;
-  Mobility mobility;
-  Vector3 p_HB;  // m, the centre of mass in H
-  std::vector<SensorParameters> sensors;
+  std::string name;                       // of the craft
+  Mobility mobility;                      // of the craft
+  Vector3 p_HB;                           // m, the centre of mass in H
+  std::vector<SensorParameters> sensors;  // in their order
 };
 
 /// What lasers see, besides their own craft.
 struct SensorSurroundings {
-  std::vector<RayTarget> targets;
-  std::optional<RayGround> ground;
+  std::vector<RayTarget> targets;   // bodies and obstacles
+  std::optional<RayGround> ground;  // none: rays go on for ever
 };
 
 /// What sensors are read from. Made from the states alone where no craft has rotors.
 struct SensedBodies {
+  /// Of craft without rotors.
   SensedBodies(const BodyStates& all) : states(all) {}
+  /// @param momenta as rotors_B.
   SensedBodies(const BodyStates& all, const std::vector<Vector3>& momenta)
       : states(all), rotors_B(&momenta) {}
 
-  const BodyStates& states;
+  const BodyStates& states;                        // vehicles first
   const std::vector<Vector3>* rotors_B = nullptr;  // N m s, of the rotors of each craft, in B
 };
 
@@ -70,8 +72,9 @@ class HOVERCRAFT_PUBLIC SensorSuite {
               std::int64_t step_ns);
   ~SensorSuite();
   SensorSuite(SensorSuite&&) noexcept;
-  SensorSuite& operator=(SensorSuite&&) noexcept;
+  SensorSuite& operator=(SensorSuite&&) noexcept;  // moves, likewise
 
+  /// Whether no craft carries a sensor.
   bool empty() const { return sensors_.empty(); }
 
   /// States at the start of a run, of all sensors of the first craft, then of the second, ...
@@ -97,9 +100,10 @@ class HOVERCRAFT_PUBLIC SensorSuite {
 
   /// The states of one craft: [first, last).
   struct Range {
-    std::size_t first = 0;
-    std::size_t last = 0;
+    std::size_t first = 0;  // index of its first sensor
+    std::size_t last = 0;   // behind its last one
   };
+  /// @param vehicle index into the carriers.
   Range rangeOf(std::size_t vehicle) const;
 
  private:

@@ -45,7 +45,7 @@ class HOVERCRAFT_PUBLIC Batch {
   /// One more run; at tick 0. @throws std::invalid_argument that names the run and the key of what
   /// must be as in the first run, or of what a batch cannot do; the batch is then as before.
   void add(const Scenario& scenario);
-  std::size_t size() const { return logs_.size(); }
+  std::size_t size() const { return logs_.size(); }  // runs
 
   /// Queues a command as Simulation::push() does; its vehicle is 0. After a run diverged it has no
   /// effect.
@@ -56,14 +56,16 @@ class HOVERCRAFT_PUBLIC Batch {
 
   /// That of all runs but those that diverged.
   Tick tick() const { return tick_; }
-  std::int64_t stepNs() const { return kind_.step_ns; }
+  std::int64_t stepNs() const { return kind_.step_ns; }  // ns, of a step
   /// The last tick of a run whose motion is not finite after the step that begins there, as where
   /// Simulation::step() throws: it stays as it was then. None: it goes on.
   [[nodiscard]] std::optional<Tick> divergedAt(std::size_t run) const;
 
   /// As in Simulation::state(), and of the tick of the run.
   RigidBodyState<Quaternion> body(std::size_t run) const;
+  /// By id.
   EngineStates actuators(std::size_t run) const;
+  /// The tick that a run is at: tick(), or where it diverged.
   Tick tickOf(std::size_t run) const { return divergedAt(run).value_or(tick_); }
   /// As Simulation::motion().
   Motion motion(std::size_t run) const;
@@ -72,7 +74,9 @@ class HOVERCRAFT_PUBLIC Batch {
   /// As Simulation::hash().
   std::uint64_t hash(std::size_t run) const;
 
-  InstructionSet instructionSet() const { return instruction_set_; }
+  InstructionSet instructionSet() const {
+    return instruction_set_;
+  }  // that the steps are made with
 
  private:
   struct Air {

@@ -15,20 +15,20 @@ namespace hovercraft {
 
 /// What all runs of a batch have in common.
 struct BatchKind {
-  std::int64_t step_ns = 0;
-  Integrator integrator = Integrator::kHeun;
-  BodyModel model = BodyModel::kPlanar;
-  bool has_gusts = false;
-  std::vector<std::string> actuator_names;  // besides the engines
-  lanes::StepPlan plan;
-  std::size_t rows = 0;  // numbers of its forces, rotors and ground
+  std::int64_t step_ns = 0;                   // ns
+  Integrator integrator = Integrator::kHeun;  // of all steps
+  BodyModel model = BodyModel::kPlanar;       // planar or spatial
+  bool has_gusts = false;                     // whether the air is that of each run
+  std::vector<std::string> actuator_names;    // besides the engines
+  lanes::StepPlan plan;                       // of a step
+  std::size_t rows = 0;                       // numbers of its forces, rotors and ground
 };
 
 /// What a run knows of an actuator between its events.
 struct LaneActuator {
-  EngineDynamics::Rule rule;
-  double commanded = 0.0;
-  Tick command_tick = EngineState::kNever;
+  EngineDynamics::Rule rule;                // limits and lag
+  double commanded = 0.0;                   // as received
+  Tick command_tick = EngineState::kNever;  // of the last command
 };
 
 /// The model of the craft of a scenario. @throws std::invalid_argument that names the key of what a
@@ -44,10 +44,10 @@ void requireSameKind(const BatchKind& kind, const BatchKind& first, const std::s
 
 /// Where a run lies in its block.
 struct LanePlace {
-  lanes::Block& block;
-  lanes::Row* wind_W;
-  lanes::Row* more;
-  std::size_t lane;
+  lanes::Block& block;  // that it lies in
+  lanes::Row* wind_W;   // three rows, m/s
+  lanes::Row* more;     // numbers of forces, rotors and the ground
+  std::size_t lane;     // column of the run
 };
 
 /// Writes constants and the initial state of a run.

@@ -15,8 +15,9 @@ namespace hovercraft {
 /// The actuators that a command is for: bit i stands for that of id i (rear 1, left 2, right 4,
 /// then the others).
 using EngineMask = std::uint16_t;
-constexpr EngineMask kAllEngines = 7;
+constexpr EngineMask kAllEngines = 7;  // rear, left and right
 static_assert(kMaxActuators <= 16, "a mask has a bit for each actuator");
+/// The mask of one.
 constexpr EngineMask maskOf(ActuatorId actuator) {
   return static_cast<EngineMask>(1U << static_cast<unsigned>(actuator));
 }
@@ -26,9 +27,9 @@ constexpr EngineMask maskOf(std::size_t id) {
 
 /// What is demanded of one craft from a tick on, until the next command or the time-out.
 struct Command {
-  Tick tick = 0;            // the first step that it acts in begins here
-  std::size_t vehicle = 0;  // index into Scenario::vehicles
-  EngineMask engines = kAllEngines;
+  Tick tick = 0;                     // the first step that it acts in begins here
+  std::size_t vehicle = 0;           // index into Scenario::vehicles
+  EngineMask engines = kAllEngines;  // which of the thrusts count
   /// By id: rear, left, right in N, then the others; finite; counted only where the mask has it.
   ActuatorArray<double> thrusts;
 };
@@ -48,7 +49,7 @@ class HOVERCRAFT_PUBLIC CommandLog {
   /// The next command with tick <= `tick`, or null; it stays valid until the next push().
   const Command* takeDue(Tick tick);
 
-  bool empty() const { return next_ == waiting_.size(); }
+  bool empty() const { return next_ == waiting_.size(); }  // whether none waits
   /// Of the next command; the greatest there is if none waits.
   Tick nextTick() const {
     return empty() ? std::numeric_limits<Tick>::max() : waiting_[next_].tick;

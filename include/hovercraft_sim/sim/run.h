@@ -21,14 +21,14 @@ struct RunPlan {
   std::function<bool(Simulation&)> steer;
   std::function<void(Tick)> on_progress;  // called every kProgressInterval ticks; may be empty
 };
-constexpr Tick kProgressInterval = 4096;
+constexpr Tick kProgressInterval = 4096;  // ticks
 
 /// An engine that stopped because no command came in time.
 struct EngineTimeout {
-  std::size_t vehicle = 0;
-  int engine = 0;
-  std::int64_t count = 0;  // how many times
-  Tick first_tick = 0;     // of the first time: the step that begins here was the first without
+  std::size_t vehicle = 0;  // index into Scenario::vehicles
+  int engine = 0;           // its id
+  std::int64_t count = 0;   // how many times
+  Tick first_tick = 0;      // of the first time: the step that begins here was the first without
   double first_commanded = 0.0;  // N, the command that was cut off then
 };
 

@@ -42,9 +42,9 @@ class HOVERCRAFT_PUBLIC RunObserver {
 /// An observer of functions, for one or two of them; one that is not set is not called.
 class HOVERCRAFT_PUBLIC RunCallbacks : public RunObserver {
  public:
-  std::function<void(const Command&)> on_applied;
-  std::function<void(const ContactEvent&)> on_contact;
-  std::function<void(const SensorSample&)> on_sample;
+  std::function<void(const Command&)> on_applied;       // RunObserver::applied()
+  std::function<void(const ContactEvent&)> on_contact;  // RunObserver::contact()
+  std::function<void(const SensorSample&)> on_sample;   // RunObserver::sample()
 
   void applied(const Command& command) override {
     if (on_applied) on_applied(command);

@@ -26,10 +26,12 @@ class StateHash;
 /// thread is (FloatingPointEnvironment). An observer is told in the thread's own.
 class HOVERCRAFT_PUBLIC Simulation {
  public:
+  /// At tick 0. @param scenario as a parser checked it.
   explicit Simulation(Scenario scenario);
 
   /// Queues a command; one whose tick has passed is a mistake of the caller.
   void push(const Command& command);
+  /// Whether a command waits for its tick.
   bool hasWaitingCommands() const { return !state_.commands.empty(); }
 
   /// Puts a craft somewhere else, with other velocities: from the current tick on. Its engines stay
@@ -68,6 +70,7 @@ class HOVERCRAFT_PUBLIC Simulation {
 
   /// Goes on from a state of the same scenario, at its tick; commands that waited give way to its.
   void restore(const SimulationState& state);
+  /// Everything that changes; with scenario() the whole of it.
   const SimulationState& state() const { return state_; }
 
   /// Applies the commands that are due and moves every craft from tick n to n + 1.
@@ -76,16 +79,18 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// before the step; the commands that were due have taken effect.
   void step();
 
-  const Scenario& scenario() const { return scenario_; }
-  Tick tick() const { return state_.tick; }
+  const Scenario& scenario() const { return scenario_; }  // as given
+  Tick tick() const { return state_.tick; }  // steps since the beginning of the episode
   /// Simulated time at the current tick, ns.
   std::int64_t timeNs() const { return state_.tick * scenario_.step_ns; }
 
+  /// Of the centre of mass. @param vehicle index into Scenario::vehicles.
   Motion motion(std::size_t vehicle) const;
   /// Of a loose body.
   Motion bodyMotion(std::size_t body) const;
   /// Null if the scenario has no world.
   const World* world() const { return scenario_.world ? &world_ : nullptr; }
+  /// @param engine id of an engine or another actuator.
   EngineReport engineReport(std::size_t vehicle, int engine) const;
   /// Cells of the cushion of a craft; 0 without one.
   std::size_t cellCount(std::size_t vehicle) const;

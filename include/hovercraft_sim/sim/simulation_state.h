@@ -21,17 +21,17 @@ namespace hovercraft {
 struct ExternalWrench {
   enum class Frame { kWorld, kBody };
 
-  std::size_t vehicle = 0;
-  Frame frame = Frame::kWorld;
-  Wrench wrench;      // N and N m about the centre of mass
-  Tick end_tick = 0;  // it acts in the steps that begin before this tick
+  std::size_t vehicle = 0;      // index into Scenario::vehicles
+  Frame frame = Frame::kWorld;  // of `wrench`
+  Wrench wrench;                // N and N m about the centre of mass
+  Tick end_tick = 0;            // it acts in the steps that begin before this tick
 };
 
 /// Everything that determines the future of a run, besides the scenario and what is still to be
 /// pushed.
 struct SimulationState {
-  Tick tick = 0;
-  std::int64_t seed = 1;
+  Tick tick = 0;                         // at which it stands
+  std::int64_t seed = 1;                 // of the run's noise
   Vector3 wind_W = Vector3::Zero();      // m/s, the mean
   std::vector<BodyState> bodies;         // vehicles, then loose ones, in the scenario's order
   std::vector<EngineStates> engines;     // of each vehicle
@@ -44,15 +44,15 @@ struct SimulationState {
 
 /// A contact as it is reported: once, in the step in which it happened.
 struct ContactEvent {
-  ContactKind kind = ContactKind::kBounce;
-  std::int64_t time_ns = 0;  // of the impact, to the nearest ns
-  double time = 0.0;         // s
-  Tick tick = 0;             // at the end of the step
-  std::string_view a;        // names, as long as the simulation lives
-  std::string_view b;
-  Vector3 p_WC;         // m
-  Vector3 nhat_AB_W;    // unit
-  Vector3 impulse_B_W;  // N s, on b
+  ContactKind kind = ContactKind::kBounce;  // what happened
+  std::int64_t time_ns = 0;                 // of the impact, to the nearest ns
+  double time = 0.0;                        // s
+  Tick tick = 0;                            // at the end of the step
+  std::string_view a;                       // names, as long as the simulation lives
+  std::string_view b;                       // likewise
+  Vector3 p_WC;                             // m
+  Vector3 nhat_AB_W;                        // unit
+  Vector3 impulse_B_W;                      // N s, on b
 };
 
 /// Motion of one craft as it is reported; W world, B at the centre of mass.
@@ -67,13 +67,13 @@ struct Motion {
 
 /// One engine as it is reported.
 struct EngineReport {
-  double commanded;  // N or in the unit of its commands, as received
-  double applied;    // N, after limits, time-out and lag
-  bool saturated;
-  bool timed_out;
+  double commanded;         // N or in the unit of its commands, as received
+  double applied;           // N, after limits, time-out and lag
+  bool saturated;           // the command is beyond the limits
+  bool timed_out;           // the last command is too old
   double command_age;       // s of simulated time; -1 before the first command
   double efficiency = 1.0;  // EngineState
-  bool stuck = false;
+  bool stuck = false;       // EngineState
 };
 
 /// The cushion of a craft as it is reported.

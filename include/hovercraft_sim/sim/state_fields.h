@@ -15,6 +15,7 @@
 
 namespace hovercraft {
 
+/// By its numbers.
 template <class Visit>
 void visitOrientation(const Quaternion& q_WB, Visit&& visit) {
   visit("q_s", q_WB.s);
@@ -26,7 +27,7 @@ void visitOrientation(Quaternion& q_WB, Visit&& visit) {
   visit("q_v", q_WB.v);
 }
 
-constexpr const char* kAxisFields[] = {"x_axis", "y_axis", "z_axis"};
+constexpr const char* kAxisFields[] = {"x_axis", "y_axis", "z_axis"};  // the columns
 
 /// A matrix column by column.
 template <class Visit>

@@ -18,6 +18,7 @@ class StateHash {
     add(value);
   }
 
+  /// Byte by byte, the lowest first.
   void add(std::uint64_t word) {
     for (int byte = 0; byte < 8; ++byte) {
       value_ ^= (word >> (8 * byte)) & 0xffU;

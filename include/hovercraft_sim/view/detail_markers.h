@@ -23,7 +23,7 @@ struct CraftMotion {
   std::optional<hovercraft::Vector3> wind;      // m/s, in W, gusts included; none: not known
 };
 
-/// The force that a craft's drag exerts, its polar included, N, in W. @param wind m/s, in W.
+/// The force that a craft's drag exerts, its other laws included, N, in W. @param wind m/s, in W.
 HOVERCRAFT_PUBLIC hovercraft::Vector3 dragOf(const hovercraft::VehicleScenario& craft,
                                              const hovercraft::Vector3& wind,
                                              const hovercraft_sim::State& state);

@@ -15,7 +15,7 @@ struct CraftControl {
   double least = 0.0;  // of its level
   double most = 0.0;
   double rest = 0.0;   // the level of a craft that nobody drives
-  bool holds = false;  // without its driver it stays where it is: lift fans and rudders
+  bool holds = false;  // without its driver it stays as it is: lift fans, rudders
   int ahead = 0;       // 1, 0 or -1: what of it goes with "ahead"
   int turn = 0;        // ... and with "turn left"
 };
