@@ -22,7 +22,7 @@ struct ContactBody {
 /// What is asked of one point of contact: B must leave A with at least `target` along the normal.
 struct ContactDemand {
   std::int32_t a = 0;  // index of a body
-  std::int32_t b = 0;
+  std::int32_t b = 0;  // likewise
   Vector3 nhat_AB_W = Vector3::Zero();
   Vector3 p_WC = Vector3::Zero();   // m, where the impulse acts, on both
   double target = 0.0;              // m/s
@@ -46,8 +46,8 @@ struct ContactDemand {
 class ContactSolver {
  public:
   struct Limits {
-    int sweeps = 0;  // at most
-    int least_sweeps = 1;
+    int sweeps = 0;          // at most
+    int least_sweeps = 1;    // what it does in any case
     double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
     double leap_above = std::numeric_limits<double>::infinity();  // m/s: a change beyond it is
                                                                   // solved at once, where it can
@@ -66,8 +66,11 @@ class ContactSolver {
   /// @returns the number of sweeps.
   int solve(const Limits& limits);
 
+  /// In the order in which they were added; solve() changes their twists.
   std::vector<ContactBody>& bodies() { return bodies_; }
+  /// The same.
   const std::vector<ContactBody>& bodies() const { return bodies_; }
+  /// Of the points that were added since clear() or clearPoints().
   std::size_t pointCount() const { return points_.size(); }
   /// Velocity of B against A at a point, in W, m/s.
   Vector3 velocityAt(std::size_t point) const { return velocity(points_[point]); }

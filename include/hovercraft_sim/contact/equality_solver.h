@@ -31,8 +31,8 @@ class EqualitySolver {
 
   /// A velocity along one direction at one point.
   struct Row {
-    std::int32_t a = 0;  // index of a body
-    std::int32_t b = 0;
+    std::int32_t a = 0;                   // index of a body
+    std::int32_t b = 0;                   // likewise
     Vector3 direction = Vector3::Zero();  // unit, in W
     Vector3 r_a = Vector3::Zero();        // m, from the centre of mass of A to the point
     Vector3 r_b = Vector3::Zero();

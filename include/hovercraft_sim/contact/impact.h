@@ -9,13 +9,13 @@ namespace hovercraft {
 
 /// A point of contact in an impact.
 struct ImpactPoint {
-  std::int32_t a = 0;  // index of a body of the solver
-  std::int32_t b = 0;
-  Vector3 nhat_AB_W = Vector3::Zero();
-  Vector3 p_WC = Vector3::Zero();  // m
-  ContactMaterial material;        // of the pair
-  double plastic_speed = 0.0;      // m/s: an approach slower than this does not bounce
-  double gain = 0.0;               // m/s: of an approach, what does not bounce
+  std::int32_t a = 0;                   // index of a body of the solver
+  std::int32_t b = 0;                   // likewise
+  Vector3 nhat_AB_W = Vector3::Zero();  // unit, from A to B, in W
+  Vector3 p_WC = Vector3::Zero();       // m
+  ContactMaterial material;             // of the pair
+  double plastic_speed = 0.0;           // m/s: an approach slower than this does not bounce
+  double gain = 0.0;                    // m/s: of an approach, what does not bounce
   // Written:
   Vector3 impulse = Vector3::Zero();  // N s, on B
   double approach = 0.0;              // m/s, the fastest that was stopped here

@@ -16,12 +16,13 @@ struct ContactPoint {
 /// All points of contact of a pair at one time: one for a vertex or crossing edges, two for an edge
 /// along a face or parallel edges, the corners of the common area for two faces.
 struct ContactManifold {
+  /// Of a common area with more corners the farthest out are kept.
   static constexpr int kMaxPoints = 8;
 
-  Vector3 nhat_AB_W = Vector3::Zero();  // unit, from A to B, the same for all points
-  std::array<ContactPoint, kMaxPoints> points;
-  int count = 0;
-  bool of_face = false;  // the normal is that of a face
+  Vector3 nhat_AB_W = Vector3::Zero();          // unit, from A to B, the same for all points
+  std::array<ContactPoint, kMaxPoints> points;  // the first `count` of them
+  int count = 0;                                // of the points
+  bool of_face = false;                         // the normal is that of a face
 };
 
 /// The points of a pair whose gap is at most `band`.

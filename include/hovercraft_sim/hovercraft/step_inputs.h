@@ -29,8 +29,8 @@ struct StepInputs {
 
 /// A piece of a step, s from its start; contact cuts a step at every impact.
 struct StepPiece {
-  double from = 0.0;  // where it begins
-  double to = 0.0;    // where it ends
+  double from = 0.0;        // where it begins
+  double to = 0.0;          // where it ends
   bool in_contact = false;  // both Eulers give way to Heun's method (doc/contact.md)
 };
 

@@ -12,42 +12,42 @@ namespace hovercraft {
 
 /// A pair of bodies of the island.
 struct IslandLink {
-  ContactMemory memory;
-  ClosestFeatures closest;
-  ContactManifold manifold;
-  ContactMaterial material;
-  int impacts = 0;     // in this step
-  double found = 0.0;  // m, the gap before bodies were set apart
-  bool touching = false;
-  bool rested = false;      // at some time of this step, or at its start
-  std::int32_t slot_a = 0;  // bodies of the solver
-  std::int32_t slot_b = 0;
+  ContactMemory memory;         // what it keeps to the next step
+  ClosestFeatures closest;      // now
+  ContactManifold manifold;     // of those that touch
+  ContactMaterial material;     // of the pair
+  int impacts = 0;              // in this step
+  double found = 0.0;           // m, the gap before bodies were set apart
+  bool touching = false;        // their gap is within the tolerance now
+  bool rested = false;          // at some time of this step, or at its start
+  std::int32_t slot_a = 0;      // bodies of the solver
+  std::int32_t slot_b = 0;      // likewise
   std::size_t first_point = 0;  // of its points in a solve
-  int point_count = 0;
+  int point_count = 0;          // that it has there
 };
 
 /// A body of the island.
 struct IslandMember {
-  std::int32_t index = 0;  // in the world
-  BodyState state;
-  BodyState end;
+  std::int32_t index = 0;    // in the world
+  BodyState state;           // at the start of the piece
+  BodyState end;             // at the end of the piece
   bool ends_freely = false;  // `end` is that of the whole step without contact, from `state`
-  Pose pose;
-  Twist twist;      // now, with rotors as they turn now
-  Twist twist_end;  // at the end of the step without contact, likewise
-  Wrench contact;   // constant force and moment over the piece of a step
-  StepMotion motion;
+  Pose pose;                 // of the body, at the start of the piece
+  Twist twist;               // now, with rotors as they turn now
+  Twist twist_end;           // at the end of the step without contact, likewise
+  Wrench contact;            // constant force and moment over the piece of a step
+  StepMotion motion;         // over the piece
   Vector3 travelled = Vector3::Zero();  // m
 };
 
 /// The arrays of the event loop, kept from step to step so that nothing is allocated.
 struct IslandScratch {
-  std::vector<IslandLink> links;
-  std::vector<IslandMember> members;
-  std::vector<std::int32_t> slots;  // of each body of the world
-  std::vector<ImpactPoint> impact_points;
-  ContactSolver solver;
-  ImpactSolver impact;
+  std::vector<IslandLink> links;           // pairs, ascending
+  std::vector<IslandMember> members;       // bodies, ascending
+  std::vector<std::int32_t> slots;         // of each body of the world
+  std::vector<ImpactPoint> impact_points;  // of the impact that is solved
+  ContactSolver solver;                    // of impacts and resting contacts
+  ImpactSolver impact;                     // its rounds
 };
 
 /// One step of bodies that are near each other: the event loop of doc/contact.md. Made anew for
@@ -55,6 +55,7 @@ struct IslandScratch {
 /// warmed up.
 class Island {
  public:
+  /// All are kept by reference. @param records get what happens.
   Island(const Scene& scene, const std::vector<StepInputs>& inputs, IslandScratch& scratch,
          std::vector<ContactRecord>& records)
       : scene_(scene), inputs_(inputs), s_(scratch), records_(records) {}

@@ -23,15 +23,21 @@ using ScenePair = std::pair<std::int32_t, std::int32_t>;
 /// One index counts both, bodies first.
 class Scene {
  public:
+  /// What is given was checked by the scenario.
   Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles);
 
+  /// How bodies meet.
   const WorldRules& rules() const { return rules_; }
+  /// Those that move, in the order of their indices.
   const std::vector<WorldBody>& bodies() const { return bodies_; }
+  /// Those that never move; their indices follow on those of the bodies.
   const std::vector<WorldObstacle>& obstacles() const { return obstacles_; }
 
+  /// Whether an index is that of an obstacle.
   bool isFixed(std::int32_t index) const {
     return static_cast<std::size_t>(index) >= bodies_.size();
   }
+  /// As in the scenario.
   HOVERCRAFT_PUBLIC const std::string& nameOf(std::int32_t index) const;
   /// In the body's frame B. Only where bodies meet.
   HOVERCRAFT_PUBLIC const ConvexPolyhedron& hullOf(std::int32_t index) const;
@@ -113,6 +119,7 @@ class Scene {
   Separation separationOf(std::size_t body, const Pose& pose, const Vector3& travel,
                           std::int32_t obstacle, int side) const;
 
+  /// Closest features of a pair in these states.
   ClosestFeatures closestOf(const std::vector<BodyState>& states, const ScenePair& pair) const;
 
   /// The displacements, m, that take the two bodies `by` metres apart along nhat_AB_W, each in

@@ -30,8 +30,10 @@ struct StepResult {
 /// besides the memory of contacts is a list of neighbours that only saves time.
 class HOVERCRAFT_PUBLIC World {
  public:
+  /// No body: what step() returns when all is well.
   static constexpr int kNone = -1;
 
+  /// Bodies and obstacles as the scenario has checked them.
   World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles);
 
   /// One step of all bodies. @param inputs, states in the order of the bodies. @param memory of the
@@ -65,6 +67,7 @@ class HOVERCRAFT_PUBLIC World {
   /// that is more than a few hundred pairs to look at.
   [[nodiscard]] bool isClearAhead(const std::vector<BodyState>& states, double steps) const;
 
+  /// What is in the world, and its laws.
   const Scene& scene() const { return scene_; }
   /// How often a bound cut off the rest of a step: on its events, or on how often it is begun anew
   /// because bodies came farther than was looked.
