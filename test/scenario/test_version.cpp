@@ -118,7 +118,8 @@ TEST(PhysicsVersion, OfARecordingMayBeOlder) {
     return messageOf([&text] { parseScenario(text, {"bag", "", {}, {}, true}); });
   };
   EXPECT_EQ(complaint("1"), "nothing was thrown");
-  EXPECT_NE(complaint("3"), "nothing was thrown");
+  EXPECT_EQ(complaint("3"), "nothing was thrown");
+  EXPECT_NE(complaint("4"), "nothing was thrown");
   EXPECT_NE(complaint("0"), "nothing was thrown");
   EXPECT_EQ(physicsVersionOf(validScenario(), "bag"), 1);
   EXPECT_EQ(physicsVersionOf("physics_version: 7\n" + validScenario(), "bag"), 7);
