@@ -55,7 +55,7 @@ class EqualitySolver {
   void solve();
 
  private:
-  static constexpr int kSize = 6;
+  static constexpr std::size_t kSize = 6;
   using Block = std::array<double, kSize * kSize>;  // row by row
   using Part = std::array<double, kSize>;
 
