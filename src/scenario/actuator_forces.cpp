@@ -57,6 +57,7 @@ RudderForce rudderOf(std::size_t id, const ActuatorScenario& rudder,
 
 std::vector<Force> forcesOf(const VehicleScenario& vehicle) {
   std::vector<Force> forces;
+  forces.reserve(vehicle.drag_laws.size() + vehicle.actuators.size());
   for (const DragLaw& law : vehicle.drag_laws) forces.emplace_back(DragForce{law});
   for (std::size_t i = 0; i < vehicle.actuators.size(); ++i) {
     const ActuatorScenario& actuator = vehicle.actuators[i];

@@ -68,23 +68,19 @@ struct Chain {
                                                    inertia};
     }
     for (const EqualitySolver::Body& body : bodies) solver.add(body);
-    for (std::size_t i = 1; i < name.size(); ++i) {
-      for (int axis = 0; axis < 3; ++axis) {
-        for (const double side : {-0.3, 0.2}) {
-          EqualitySolver::Row row;
-          row.a = name[i - 1];
-          row.b = name[i];
-          row.direction = Vector3::Unit(axis);
-          row.r_a = Vector3(side, 0.1, 0.5);
-          row.r_b = Vector3(side, 0.1, -0.5);
-          row.wanted = 0.1 * axis + (side > 0.0 && axis == 2 ? 0.05 : 0.0) - 0.02 * row.b;
-          if (axis == 0 && side > 0.0) continue;  // along the line of both points it says the same
-          solver.add(row);
-        }
-      }
-    }
+    for (std::size_t i = 1; i < name.size(); ++i) join(name[i - 1], name[i]);
     work = solver.order();
     solver.solve();
+  }
+  void join(std::int32_t a, std::int32_t b) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double side : {-0.3, 0.2}) {
+        if (axis == 0 && side > 0.0) continue;  // along the line of both points it says the same
+        const double wanted = 0.1 * axis + (side > 0.0 && axis == 2 ? 0.05 : 0.0) - 0.02 * b;
+        solver.add(
+            {a, b, Vector3::Unit(axis), Vector3(side, 0.1, 0.5), Vector3(side, 0.1, -0.5), wanted});
+      }
+    }
   }
   /// The velocity that the impulses give B against A at a row.
   double reached(const EqualitySolver::Row& asked) const {
@@ -143,8 +139,7 @@ TEST(EqualitySolver, TwoFreeBodiesPart) {
 TEST(EqualitySolver, ARowMustNameTwoBodies) {
   EqualitySolver solver;
   solver.add(cube());
-  EXPECT_THROW(solver.add({0, 1, kUp, Vector3::Zero(), Vector3::Zero(), 1.0}),
-               std::logic_error);
+  EXPECT_THROW(solver.add({0, 1, kUp, Vector3::Zero(), Vector3::Zero(), 1.0}), std::logic_error);
 }
 
 }  // namespace

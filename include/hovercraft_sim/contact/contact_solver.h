@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/contact/equality_solver.h"
+#include "hovercraft_sim/math/contact_tolerances.h"
 
 namespace hovercraft {
 
@@ -115,6 +116,19 @@ class ContactSolver {
   /// What a point is taken for in a leap.
   enum class Kind : std::uint8_t { kParts, kSlides, kHolds };
 
+  /// Along how many directions it is given a velocity.
+  static constexpr int directionsOf(Kind kind) {
+    return kind == Kind::kHolds ? 3 : kind == Kind::kSlides ? 1 : 0;
+  }
+
+  /// When to leap next.
+  struct Leaps {
+    bool are_allowed = false;
+    int wait = kSweepsBeforeLeap;  // sweeps between two
+    int next = kSweepsBeforeLeap;  // the sweep after which the next is due
+    double doubted = 0.0;          // m/s: what was left before one that came to no end
+  };
+
   /// What a sweep changed.
   struct Change {
     double largest = 0.0;  // m/s, of the points
@@ -155,7 +169,11 @@ class ContactSolver {
   bool canLeap();
   bool leap(double tolerance);
   void guessKinds(double tolerance);
+  void letGo();
   void addEqualities();
+  double readChanges();
+  void bind(std::size_t k, const Vector3& before, double share);
+  bool leapOrUndo(Leaps& leaps, double left, int sweeps, double above);
   bool takeEqualities();
   bool mendKinds(double tolerance);
   static bool isHeld(const Point& point);
