@@ -70,6 +70,34 @@ void subtractTransposedTimes(const Block& A, const Part& x, Part& y) {
   }
 }
 
+/// y := L⁻¹ y, L lower.
+void divideBy(const Block& L, Part& y) {
+  for (std::size_t r = 0; r < 6; ++r) {
+    for (std::size_t c = 0; c < r; ++c) y[r] -= L[r * 6 + c] * y[c];
+    y[r] /= L[r * 6 + r];
+  }
+}
+
+/// y := L⁻ᵀ y.
+void divideByTransposed(const Block& L, Part& y) {
+  for (std::size_t r = 6; r-- > 0;) {
+    for (std::size_t c = r + 1; c < 6; ++c) y[r] -= L[c * 6 + r] * y[c];
+    y[r] /= L[r * 6 + r];
+  }
+}
+
+/// Of a row of A with itself, weighed: C += penalty a bᵀ.
+void addProduct(const Part& a, const Part& b, Block& C) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double share = kEqualityPenalty * a[i];
+    for (std::size_t j = 0; j < 6; ++j) C[i * 6 + j] += share * b[j];
+  }
+}
+
+void addTimes(double factor, const Part& a, Part& y) {
+  for (std::size_t i = 0; i < 6; ++i) y[i] += factor * a[i];
+}
+
 double product(const Part& a, const Part& b) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 6; ++i) sum += a[i] * b[i];
@@ -116,43 +144,58 @@ EqualitySolver::Part EqualitySolver::partOf(std::int32_t body, const Vector3& di
           sign * (R[5] * moment.z())};
 }
 
-std::size_t EqualitySolver::order() {
+bool EqualitySolver::moves(std::size_t body) const {
+  const Root& root = roots_[body];
+  double sum = root.mass.x() + root.mass.y() + root.mass.z();
+  for (const double entry : root.inertia) sum += std::abs(entry);
+  return sum > 0.0;
+}
+
+/// Gives a body the level after that of another. @returns whether it had none.
+bool EqualitySolver::reach(std::int32_t from, std::int32_t to, std::int32_t level) {
+  if (levels_[at(from)] != level || levels_[at(to)] != kUnknown) return false;
+  levels_[at(to)] = level + 1;
+  return true;
+}
+
+/// How many pairs each body is away from what is fixed; a group that rests on nothing begins with
+/// its first body. @returns the highest level.
+std::int32_t EqualitySolver::findLevels() {
   const std::size_t count = roots_.size();
-  const auto moves = [this](std::int32_t body) {
-    const Root& root = roots_[at(body)];
-    double sum = root.mass.x() + root.mass.y() + root.mass.z();
-    for (const double entry : root.inertia) sum += std::abs(entry);
-    return sum > 0.0;
-  };
-  constexpr std::int32_t kUnknown = -1;
   levels_.assign(count, kUnknown);
   for (std::size_t i = 0; i < count; ++i) {
-    if (!moves(static_cast<std::int32_t>(i))) levels_[i] = 0;
+    if (!moves(i)) levels_[i] = 0;
   }
-  // Level by level; a group that rests on nothing begins with its first body.
   std::int32_t level = 0;
   for (std::size_t seed = 0; seed < count;) {
     bool any = false;
     for (const Row& row : rows_) {
-      for (const auto& [from, to] : {std::pair(row.a, row.b), std::pair(row.b, row.a)}) {
-        if (levels_[at(from)] != level || levels_[at(to)] != kUnknown) continue;
-        levels_[at(to)] = level + 1;
-        any = true;
-      }
+      any = reach(row.a, row.b, level) || any;
+      any = reach(row.b, row.a, level) || any;
     }
     ++level;
     if (any) continue;
     while (seed < count && levels_[seed] != kUnknown) ++seed;
     if (seed < count) levels_[seed] = level;
   }
-  places_.assign(count, -1);
+  return level;
+}
+
+/// Places the bodies that move by level, and by index within one. @returns how many.
+std::int32_t EqualitySolver::placeBodies() {
+  const std::int32_t highest = findLevels();
+  places_.assign(roots_.size(), -1);
   std::int32_t placed = 0;
-  for (std::int32_t at_level = 0; at_level <= level; ++at_level) {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (levels_[i] == at_level && moves(static_cast<std::int32_t>(i))) places_[i] = placed++;
+  for (std::int32_t level = 0; level <= highest; ++level) {
+    for (std::size_t i = 0; i < roots_.size(); ++i) {
+      if (levels_[i] == level && moves(i)) places_[i] = placed++;
     }
   }
-  firsts_.resize(at(placed));
+  return placed;
+}
+
+std::size_t EqualitySolver::order() {
+  firsts_.resize(at(placeBodies()));
   for (std::size_t i = 0; i < firsts_.size(); ++i) firsts_[i] = i;
   for (const Row& row : rows_) {
     const std::int32_t low = std::min(places_[at(row.a)], places_[at(row.b)]);
@@ -195,20 +238,16 @@ void EqualitySolver::fillMatrix() {
     Block& diagonal = block(i, i);
     for (std::size_t k = 0; k < kSize; ++k) diagonal[k * kSize + k] = 1.0;
   }
-  const auto add = [](const Part& row, const Part& column, Block& sum) {
-    for (std::size_t i = 0; i < kSize; ++i) {
-      const double share = kEqualityPenalty * row[i];
-      for (std::size_t j = 0; j < kSize; ++j) sum[i * kSize + j] += share * column[j];
-    }
-  };
   for (const Scaled& row : scaled_) {
-    if (row.place_a >= 0) add(row.a, row.a, block(at(row.place_a), at(row.place_a)));
-    if (row.place_b >= 0) add(row.b, row.b, block(at(row.place_b), at(row.place_b)));
-    if (row.place_a < 0 || row.place_b < 0) continue;
+    const bool a_moves = row.place_a >= 0;
+    const bool b_moves = row.place_b >= 0;
+    if (a_moves) addProduct(row.a, row.a, block(at(row.place_a), at(row.place_a)));
+    if (b_moves) addProduct(row.b, row.b, block(at(row.place_b), at(row.place_b)));
+    if (!a_moves || !b_moves) continue;
     if (row.place_a > row.place_b) {
-      add(row.a, row.b, block(at(row.place_a), at(row.place_b)));
+      addProduct(row.a, row.b, block(at(row.place_a), at(row.place_b)));
     } else {
-      add(row.b, row.a, block(at(row.place_b), at(row.place_a)));
+      addProduct(row.b, row.a, block(at(row.place_b), at(row.place_a)));
     }
   }
 }
@@ -235,19 +274,33 @@ void EqualitySolver::substitute() {
   const std::size_t count = firsts_.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = firsts_[i]; k < i; ++k) subtractTimes(block(i, k), y_[k], y_[i]);
-    const Block& L = block(i, i);
-    for (std::size_t r = 0; r < kSize; ++r) {
-      for (std::size_t c = 0; c < r; ++c) y_[i][r] -= L[r * kSize + c] * y_[i][c];
-      y_[i][r] /= L[r * kSize + r];
-    }
+    divideBy(block(i, i), y_[i]);
   }
   for (std::size_t i = count; i-- > 0;) {
-    const Block& L = block(i, i);
-    for (std::size_t r = kSize; r-- > 0;) {
-      for (std::size_t c = r + 1; c < kSize; ++c) y_[i][r] -= L[c * kSize + r] * y_[i][c];
-      y_[i][r] /= L[r * kSize + r];
-    }
+    divideByTransposed(block(i, i), y_[i]);
     for (std::size_t k = firsts_[i]; k < i; ++k) subtractTransposedTimes(block(i, k), y_[i], y_[k]);
+  }
+}
+
+/// The velocities that the multipliers and what is missed push for.
+void EqualitySolver::pushBodies() {
+  for (Part& part : y_) part.fill(0.0);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const Scaled& row = scaled_[k];
+    const double push = kEqualityPenalty * (row.scale * rows_[k].wanted) + row.multiplier;
+    if (row.place_a >= 0) addTimes(push, row.a, y_[at(row.place_a)]);
+    if (row.place_b >= 0) addTimes(push, row.b, y_[at(row.place_b)]);
+  }
+}
+
+/// Adds to the multipliers what the velocities still miss.
+void EqualitySolver::takeMisses() {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    Scaled& row = scaled_[k];
+    double reached = 0.0;
+    if (row.place_a >= 0) reached += product(row.a, y_[at(row.place_a)]);
+    if (row.place_b >= 0) reached += product(row.b, y_[at(row.place_b)]);
+    row.multiplier += kEqualityPenalty * (row.scale * rows_[k].wanted - reached);
   }
 }
 
@@ -257,24 +310,9 @@ void EqualitySolver::solve() {
   factor();
   y_.resize(firsts_.size());
   for (int turn = 0; turn < kEqualityTurns; ++turn) {
-    for (Part& part : y_) part.fill(0.0);
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const Scaled& row = scaled_[k];
-      const double push = kEqualityPenalty * (row.scale * rows_[k].wanted) + row.multiplier;
-      for (std::size_t i = 0; i < kSize; ++i) {
-        if (row.place_a >= 0) y_[at(row.place_a)][i] += push * row.a[i];
-        if (row.place_b >= 0) y_[at(row.place_b)][i] += push * row.b[i];
-      }
-    }
+    pushBodies();
     substitute();
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      Scaled& row = scaled_[k];
-      double reached = 0.0;
-      if (row.place_a >= 0) reached += product(row.a, y_[at(row.place_a)]);
-      if (row.place_b >= 0) reached += product(row.b, y_[at(row.place_b)]);
-      rows_[k].missed = row.scale > 0.0 ? rows_[k].wanted - reached / row.scale : 0.0;
-      row.multiplier += kEqualityPenalty * (row.scale * rows_[k].wanted - reached);
-    }
+    takeMisses();
   }
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     rows_[k].impulse = scaled_[k].multiplier * scaled_[k].scale;

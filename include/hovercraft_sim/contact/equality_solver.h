@@ -38,7 +38,6 @@ class EqualitySolver {
     Vector3 r_b = Vector3::Zero();
     double wanted = 0.0;   // m/s: what B's velocity against A's is to change by
     double impulse = 0.0;  // N s, on B; written
-    double missed = 0.0;   // m/s, what it did not reach; written
   };
 
   /// Forgets bodies and rows.
@@ -73,11 +72,19 @@ class EqualitySolver {
     double multiplier;
   };
 
+  static constexpr std::int32_t kUnknown = -1;
+
+  bool moves(std::size_t body) const;
+  bool reach(std::int32_t from, std::int32_t to, std::int32_t level);
+  std::int32_t findLevels();
+  std::int32_t placeBodies();
   Part partOf(std::int32_t body, const Vector3& direction, const Vector3& arm, double sign) const;
   void scaleRows();
   void fillMatrix();
   void factor();
   void substitute();
+  void pushBodies();
+  void takeMisses();
   Block& block(std::size_t i, std::size_t j) { return blocks_[starts_[i] + (j - firsts_[i])]; }
 
   std::vector<Root> roots_;
