@@ -139,8 +139,8 @@ bool Island::addRestPoints(IslandLink& link, double left) {
     const Vector3 v =
         velocityNow(link.slot_b, contact.p_WC) - velocityNow(link.slot_a, contact.p_WC);
     const double speed = dot(link.manifold.nhat_AB_W, v);
-    // What parts flies on its own, and rests when it has come back; what comes fast is an impact, in
-    // its time.
+    // What parts flies on its own, and rests when it has come back; what comes fast is an impact,
+    // in its time.
     if (speed > parting || (contact.gap > rules.tolerance && speed < -still)) continue;
     ContactDemand asked;
     asked.a = link.slot_a;
