@@ -193,23 +193,24 @@ void ContactSolver::goOn(double share) {
 
 /// Turns the friction of what slides against the slip, and looks at what parts. @returns whether
 /// all was well.
-bool ContactSolver::mendKinds(double tolerance) {
+bool ContactSolver::mendStates(double tolerance) {
   bool well = true;
   for (std::size_t k = 0; k < points_.size(); ++k) {
     Point& point = points_[k];
     const Vector3 v = velocity(point);
-    if (kinds_[k] == Kind::kParts && dot(point.directions[0], v) < point.target - tolerance) {
-      kinds_[k] = Kind::kSlides;
+    if (states_[k] == State::kSeparating &&
+        dot(point.directions[0], v) < point.target - tolerance) {
+      states_[k] = State::kSliding;
       well = false;
     }
-    if (kinds_[k] != Kind::kSlides || !(point.friction > 0.0)) continue;
+    if (states_[k] != State::kSliding || !(point.friction > 0.0)) continue;
     const Vector3 before = point.lambda;
     relaxTangents(point, dot(point.directions[1], v), dot(point.directions[2], v));
     const Vector3 by = point.lambda - before;
     if (!(by.cwiseAbs().cwiseProduct(point.inverse_mass).maxCoeff() > tolerance)) continue;
     apply(point, by);
     well = false;
-    if (isHeld(point)) kinds_[k] = Kind::kHolds;
+    if (isWithinCone(point)) states_[k] = State::kSticking;
   }
   return well;
 }
@@ -218,17 +219,17 @@ int ContactSolver::solve(const Limits& limits) {
   search_.assign(points_.size(), Vector3::Zero());
   before_.resize(points_.size());
   double last_energy = 0.0;
-  Leaps leaps;
-  leaps.are_allowed = canLeap();
+  ActiveSets sets;
+  sets.are_tried = canSolveActiveSet();
   for (int sweeps = 1;; ++sweeps) {
     const Change change = sweep();
     const double tolerance =
-        leaps.are_allowed ? std::min(limits.tolerance, limits.leap_above) : limits.tolerance;
+        sets.are_tried ? std::min(limits.tolerance, limits.active_set_above) : limits.tolerance;
     const bool solved = change.largest <= tolerance &&
                         (sweeps >= limits.least_sweeps || change.largest <= kNoChange);
     // After a sweep that changed nothing all that follow change nothing.
     if (solved || sweeps >= limits.sweeps || !change.any) return sweeps;
-    if (leapOrUndo(leaps, change.largest, sweeps, limits.leap_above)) {
+    if (activeSetOrUndo(sets, change.largest, sweeps, limits.active_set_above)) {
       last_energy = 0.0;
       continue;
     }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/contact/active_set_tolerances.h"
 #include "hovercraft_sim/math/demand.h"
 #include "hovercraft_sim/math/index.h"
 
@@ -47,7 +47,7 @@ void subtractProduct(const Block& A, const Block& B, Block& C) {
 }
 
 /// X := X L⁻ᵀ, L lower.
-void divideByTransposed(const Block& L, Block& X) {
+void divideRowsBy(const Block& L, Block& X) {
   for (std::size_t j = 0; j < 6; ++j) {
     const double inverse = 1.0 / L[j * 6 + j];
     for (std::size_t i = 0; i < 6; ++i) {
@@ -86,7 +86,7 @@ void divideByTransposed(const Block& L, Part& y) {
   }
 }
 
-/// Of a row of A with itself, weighed: C += penalty a bᵀ.
+/// C += penalty a bᵀ.
 void addProduct(const Part& a, const Part& b, Block& C) {
   for (std::size_t i = 0; i < 6; ++i) {
     const double share = kEqualityPenalty * a[i];
@@ -259,7 +259,7 @@ void EqualitySolver::factor() {
       for (std::size_t k = std::max(firsts_[i], firsts_[j]); k < j; ++k) {
         subtractProduct(block(i, k), block(j, k), entry);
       }
-      divideByTransposed(block(j, j), entry);
+      divideRowsBy(block(j, j), entry);
     }
     Block& diagonal = block(i, i);
     for (std::size_t k = firsts_[i]; k < i; ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hovercraft_sim/contact/active_set_tolerances.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
 
 namespace hovercraft {
@@ -86,7 +87,7 @@ bool ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& poin
   const auto count = static_cast<int>(chosen_.size());
   const double left_over = std::max(residual_ * scale, kLeftResidual * may_leave_);
   solver.solve({std::max(kMinImpactSweeps, kMaxImpactRelaxations / std::max(1, count)), 1,
-                left_over, std::max(kLeapPrecision * scale, left_over)});
+                left_over, std::max(kActiveSetPrecision * scale, left_over)});
   double gained = 0.0;
   double rounding = 0.0;
   for (std::size_t k = 0; k < chosen_.size(); ++k) {

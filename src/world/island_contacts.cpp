@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 
+#include "hovercraft_sim/contact/active_set_tolerances.h"
 #include "hovercraft_sim/contact/entry_normal.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/index.h"
@@ -182,7 +183,7 @@ void Island::press(double now) {
     const double left_over =
         kRestResidual * kRestGap * scene_.rules().tolerance / scene_.rules().step;
     s_.solver.solve({std::max(kMinRestSweeps, kMaxRestRelaxations / points), kLeastRestSweeps,
-                     left_over, kLeapResidual * left_over});
+                     left_over, kActiveSetResidual * left_over});
   }
   takeForces(now, left);
 }

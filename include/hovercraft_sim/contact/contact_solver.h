@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "hovercraft_sim/body/rigid_body.h"
+#include "hovercraft_sim/contact/active_set_tolerances.h"
 #include "hovercraft_sim/contact/equality_solver.h"
-#include "hovercraft_sim/math/contact_tolerances.h"
 
 namespace hovercraft {
 
@@ -50,8 +50,9 @@ class ContactSolver {
     int sweeps = 0;          // at most
     int least_sweeps = 1;    // what it does in any case
     double tolerance = 0.0;  // m/s: done when no point changed by more in a sweep
-    double leap_above = std::numeric_limits<double>::infinity();  // m/s: a change beyond it is
-                                                                  // solved at once, where it can
+    double active_set_above =
+        std::numeric_limits<double>::infinity();  // m/s: a change beyond it is
+                                                  // solved at once, where it can
   };
 
   /// Forgets all bodies and points.
@@ -113,20 +114,20 @@ class ContactSolver {
     bool b_is_fixed;  // B needs no arithmetic: what it would add is 0
   };
 
-  /// What a point is taken for in a leap.
-  enum class Kind : std::uint8_t { kParts, kSlides, kHolds };
+  /// What a point is taken for in an active set.
+  enum class State : std::uint8_t { kSeparating, kSliding, kSticking };
 
   /// Along how many directions it is given a velocity.
-  static constexpr int directionsOf(Kind kind) {
-    return kind == Kind::kHolds ? 3 : kind == Kind::kSlides ? 1 : 0;
+  static constexpr int directionsOf(State state) {
+    return state == State::kSticking ? 3 : state == State::kSliding ? 1 : 0;
   }
 
-  /// When to leap next.
-  struct Leaps {
-    bool are_allowed = false;
-    int wait = kSweepsBeforeLeap;  // sweeps between two
-    int next = kSweepsBeforeLeap;  // the sweep after which the next is due
-    double doubted = 0.0;          // m/s: what was left before one that came to no end
+  /// When to try an active set next.
+  struct ActiveSets {
+    bool are_tried = false;
+    int wait = kSweepsBeforeActiveSet;  // sweeps between two
+    int next = kSweepsBeforeActiveSet;  // the sweep after which the next is due
+    double doubted = 0.0;               // m/s: what was left before one that came to no end
   };
 
   /// What a sweep changed.
@@ -166,18 +167,18 @@ class ContactSolver {
   double relax(Point& point);
   Change sweep();
   void goOn(double share);
-  bool canLeap();
-  bool leap(double tolerance);
-  void guessKinds(double tolerance);
-  void letGo();
+  bool canSolveActiveSet();
+  bool solveActiveSet(double tolerance);
+  void guessStates(double tolerance);
+  void takeAway();
   void addEqualities();
   double readChanges();
   void bind(std::size_t k, const Vector3& before, double share);
-  bool leapOrUndo(Leaps& leaps, double left, int sweeps, double above);
+  bool activeSetOrUndo(ActiveSets& sets, double left, int sweeps, double above);
   bool takeEqualities();
-  bool mendKinds(double tolerance);
-  static bool isHeld(const Point& point);
-  static double shareAllowed(const Point& point, Kind kind, const Vector3& change);
+  bool mendStates(double tolerance);
+  static bool isWithinCone(const Point& point);
+  static double shareAllowed(const Point& point, State state, const Vector3& change);
   void keepImpulses();
   void restoreImpulses();
 
@@ -187,10 +188,10 @@ class ContactSolver {
   std::vector<Vector3> before_;  // N s: the impulses before the last sweep
   std::vector<Vector3> search_;  // N s
   EqualitySolver equalities_;
-  std::vector<Vector3> changes_;    // N s, of the points in a pass of a leap
-  std::vector<Kind> kinds_;         // of each point
+  std::vector<Vector3> changes_;    // N s, of the points in an active set
+  std::vector<State> states_;       // of each point
   std::vector<Twist> held_twists_;  // of the bodies, while rows are made
-  std::vector<Vector3> kept_;       // N s: the impulses before a leap
+  std::vector<Vector3> kept_;       // N s: the impulses before an active set
   std::vector<Twist> kept_twists_;  // of the bodies
 };
 

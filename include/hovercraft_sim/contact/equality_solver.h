@@ -10,8 +10,8 @@
 namespace hovercraft {
 
 /// Impulses that give points a velocity, whatever their sign: the linear problem that is left of
-/// contacts once it is known which are pressed and which hold. Of all such impulses it finds those
-/// that change least.
+/// contacts once it is known which are pressed and which hold. Of all such impulses it finds the
+/// least, each measured by what it would do alone.
 ///
 /// With y the velocities of all bodies, each measured by the root of its mass, and a row of A for
 /// each direction at a point, scaled to length 1: the least |y| with A y = c, by the method of
@@ -42,10 +42,13 @@ class EqualitySolver {
 
   /// Forgets bodies and rows.
   void clear();
+  /// Its index is how many were there before.
   void add(const Body& body);
   /// @returns its index. Its bodies must be there.
   std::size_t add(const Row& row);
+  /// Bodies stay, and their order.
   void clearRows() { rows_.clear(); }
+  /// In the order in which they were added.
   const std::vector<Row>& rows() const { return rows_; }
   /// Multiplications of 6 x 6 that factoring takes, about. Orders the bodies by the rows that are
   /// there; rows that are added later must join the same bodies.

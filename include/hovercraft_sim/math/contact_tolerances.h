@@ -116,31 +116,6 @@ constexpr int kMaxRestRelaxations = 40000;
 /// Sweeps (-) that resting contacts of many points get in any case.
 constexpr int kMinRestSweeps = 30;
 
-/// Weight (-) of what equal velocities miss against the length of the change, and turns of the
-/// method of multipliers: each makes the miss some 1e8 times the least eigenvalue of the rows
-/// smaller; that of a stack of 20 boxes is about 1e-5.
-constexpr double kEqualityPenalty = 1e8;
-constexpr int kEqualityTurns = 3;
-
-/// Sweeps (-) before contacts whose kinds are guessed from them are solved at once, and between two
-/// such guesses.
-constexpr int kSweepsBeforeLeap = 4;
-/// Sweeps (-) between two guesses from which on it is left to the sweeps: each guess that comes to
-/// no end doubles them.
-constexpr int kLongestWait = 16;
-/// What a leap may leave (-, of what sweeps may leave).
-constexpr double kLeapResidual = 1e-3;
-/// What a leap may leave of an impact (-, of the fastest point).
-constexpr double kLeapPrecision = 1e-9;
-/// Bodies (-) from which on that is done: fewer are solved by as many sweeps.
-constexpr std::ptrdiff_t kLeastLeapBodies = 3;
-/// Share (-) of the bound of friction up to which a point is guessed to hold.
-constexpr double kHeldShare = 0.999;
-/// Bound on the corrections of a guess: the points that pull let go, those that slide slide.
-constexpr int kMaxLeapPasses = 8;
-/// Products of 6 x 6 (-, of the points) that a leap may take: some 30 sweeps' worth.
-constexpr std::size_t kMostLeapWork = 4;
-
 /// Gap (-, of the contact tolerance) below which a resting contact is repaired: as long as there is
 /// more, the solver brings it back by itself.
 constexpr double kLeastRestGap = 0.1;
