@@ -113,10 +113,16 @@ class VehicleStream {
     if (message.getTopic() == topics_.applied) return appliedOf(message);
     // Not as a ros::Duration, which has 32 bits for the seconds, one of them for the sign.
     const auto time_ns = static_cast<std::int64_t>(message.getTime().toNSec() - begin_.toNSec());
-    const Tick tick = hovercraft::firstTickAt(time_ns, step_ns_);
+    Command command = askedBy(message);
+    command.tick = hovercraft::firstTickAt(time_ns, step_ns_);
+    return command;
+  }
+
+  /// @returns its tick is 0.
+  Command askedBy(const rosbag::MessageInstance& message) {
     if (message.getTopic() == topics_.actuators) {
       const auto values = messageAs<hovercraft_sim::ActuatorCommand>(path_, message);
-      const auto command = toCommand(*values, topics_.craft, topics_.vehicle, tick);
+      const auto command = toCommand(*values, topics_.craft, topics_.vehicle);
       if (!command) {
         failAt(path_, message, "names and values must be of actuators, each once and finite");
       }
@@ -124,20 +130,19 @@ class VehicleStream {
     }
     const std::optional<Command> command =
         message.getTopic() == topics_.thrust
-            ? toCommand(*messageAs<hovercraft_sim::ThrustCommand>(path_, message), topics_.vehicle,
-                        tick)
-            : levelOf(message, tick);
+            ? toCommand(*messageAs<hovercraft_sim::ThrustCommand>(path_, message), topics_.vehicle)
+            : levelOf(message);
     if (!command) failAt(path_, message, "a thrust must be finite");
     return *command;
   }
 
-  std::optional<Command> levelOf(const rosbag::MessageInstance& message, Tick tick) {
+  std::optional<Command> levelOf(const rosbag::MessageInstance& message) {
     const std::size_t id = topics_.levels.at(message.getTopic());
     const double value =
         hovercraft::isFloat32(topics_.craft, id)
             ? static_cast<double>(messageAs<std_msgs::Float32>(path_, message)->data)
             : messageAs<std_msgs::Float64>(path_, message)->data;
-    return toCommand(value, id, topics_.vehicle, tick);
+    return toCommand(value, id, topics_.vehicle);
   }
 
   Command appliedOf(const rosbag::MessageInstance& instance) {

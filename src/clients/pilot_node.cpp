@@ -6,6 +6,7 @@
 #include <ros/console.h>
 #include <ros/transport_hints.h>
 
+#include "hovercraft_sim/clients/node_ping.h"
 #include "hovercraft_sim/io/steady_clock.h"
 #include "hovercraft_sim/messages/conversions.h"
 #include "hovercraft_sim/messages/manoeuvre_messages.h"
@@ -15,6 +16,9 @@ namespace hovercraft_ros {
 namespace {
 
 constexpr std::uint32_t kPilotQueue = 100;
+
+// After so long without a state its publisher is asked whether it is there.
+constexpr std::int64_t kSilenceNs = 2000000000;
 
 bool hasOthers(const hovercraft::Command& command) {
   return command.engines > hovercraft::kAllEngines;
@@ -26,7 +30,8 @@ PilotNode::PilotNode(const ros::NodeHandle& handle, const hovercraft::Scenario& 
                      hovercraft::PilotFile file)
     : step_ns_(scenario.step_ns),
       craft_(scenario.vehicles[file.vehicle]),
-      pilot_(std::move(file), scenario.step_ns) {
+      file_(std::move(file)),
+      pilot_(file_, scenario.step_ns) {
   ros::NodeHandle own(handle, craft_.name);
   // In lockstep the simulation waits for the first answer even if it came before its connection.
   const ros::SubscriberStatusCallback repeat = [this](const ros::SingleSubscriberPublisher& to) {
@@ -42,12 +47,26 @@ PilotNode::PilotNode(const ros::NodeHandle& handle, const hovercraft::Scenario& 
                                                                 repeat_levels);
   }
   manoeuvres_ = own.advertise<hovercraft_sim::Manoeuvre>(kManoeuvresTopic, kPilotQueue, true);
-  states_ = own.subscribe(kStateTopic, kPilotQueue, &PilotNode::answer, this,
-                          ros::TransportHints().tcpNoDelay());
+  const boost::function<void(const ros::MessageEvent<const hovercraft_sim::State>&)> on_state =
+      [this](const ros::MessageEvent<const hovercraft_sim::State>& event) { answer(event); };
+  states_ = own.subscribe<hovercraft_sim::State>(
+      kStateTopic, kPilotQueue, on_state, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
 bool PilotNode::isNewRun(const hovercraft_sim::State& state) const {
   return last_ && (state.episode != last_->episode || state.tick < last_->tick);
+}
+
+/// What was answered was of a run before.
+void PilotNode::beginAnew() {
+  pilot_ = hovercraft::CraftPilot(file_, step_ns_);
+  last_.reset();
+}
+
+void PilotNode::answer(const ros::MessageEvent<const hovercraft_sim::State>& event) {
+  publisher_ = event.getPublisherName();
+  asked_ns_ = hovercraft::steadyNow();
+  answer(*event.getConstMessage());
 }
 
 void PilotNode::answer(const hovercraft_sim::State& state) {
@@ -64,9 +83,13 @@ void PilotNode::answer(const hovercraft_sim::State& state) {
     return;
   }
   if (isNewRun(state)) {
-    giveUp("the run began anew");
-    return;
+    if (answered_ > 1) {
+      giveUp("the run began anew");
+      return;
+    }
+    beginAnew();
   }
+  ++answered_;
   const hovercraft::Tick last = last_ ? static_cast<hovercraft::Tick>(last_->tick) : 0;
   if (last_) warnOfMissed(last, motion->tick);
   if (pilot_.isDueSince(last, motion->tick)) pilot_.decide(*motion);
@@ -94,10 +117,18 @@ void PilotNode::giveUp(const std::string& reason) {
   is_done_ = true;
 }
 
+/// Who sends states is there; who does not, in lockstep or paused, is asked.
+bool PilotNode::isPublisherAlive() {
+  const std::int64_t now = hovercraft::steadyNow();
+  if (publisher_.empty() || now - asked_ns_ < kSilenceNs) return true;
+  asked_ns_ = now;
+  return answers(publisher_);
+}
+
 void PilotNode::watchPublisher() {
   if (is_done_) return;
   const bool has_publisher = states_.getNumPublishers() > 0;
-  if (had_publisher_ && !has_publisher) giveUp("the simulation ended");
+  if (had_publisher_ && (!has_publisher || !isPublisherAlive())) giveUp("the simulation ended");
   had_publisher_ = has_publisher;
 }
 

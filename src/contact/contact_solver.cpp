@@ -95,29 +95,31 @@ inline void ContactSolver::turnPoint(Point& point, const Vector3& nhat_AB_W) con
   point.directions[2] = cross(nhat_AB_W, point.directions[1]);
 }
 
-std::size_t ContactSolver::add(const ContactDemand& asked) {
-  demand(asked.a >= 0 && asked.b >= 0 && at(std::max(asked.a, asked.b)) < bodies_.size(),
+std::size_t ContactSolver::add(const ContactConstraint& constraint) {
+  demand(constraint.a >= 0 && constraint.b >= 0 &&
+             at(std::max(constraint.a, constraint.b)) < bodies_.size(),
          "a point of contact must name two bodies");
-  const ContactBody& A = bodies_[at(asked.a)];
-  const ContactBody& B = bodies_[at(asked.b)];
+  const ContactBody& A = bodies_[at(constraint.a)];
+  const ContactBody& B = bodies_[at(constraint.b)];
   points_.emplace_back();
   Point& point = points_.back();
-  point.a = asked.a;
-  point.b = asked.b;
-  point.r_a = asked.p_WC - A.p_WB;
-  point.r_b = asked.p_WC - B.p_WB;
-  point.target = asked.target;
-  point.friction = asked.friction;
-  point.bilateral = asked.bilateral;
-  point.b_is_fixed = is_fixed_[at(asked.b)];
-  turnPoint(point, asked.nhat_AB_W);
+  point.a = constraint.a;
+  point.b = constraint.b;
+  point.r_a = constraint.p_WC - A.p_WB;
+  point.r_b = constraint.p_WC - B.p_WB;
+  point.target = constraint.target;
+  point.friction = constraint.friction;
+  point.bilateral = constraint.bilateral;
+  point.b_is_fixed = is_fixed_[at(constraint.b)];
+  turnPoint(point, constraint.nhat_AB_W);
   for (int i = 0; i < 3; ++i) {
     point.spin_a[i] = times(A.inverse_inertia, cross(point.r_a, point.directions[i]));
     point.spin_b[i] = times(B.inverse_inertia, cross(point.r_b, point.directions[i]));
   }
   weigh(point, {velocityAlong(point, 0), velocityAlong(point, 1), velocityAlong(point, 2)});
   for (int i = 0; i < 3; ++i) {
-    point.lambda[i] = point.inverse_mass[i] > 0.0 ? dot(point.directions[i], asked.start) : 0.0;
+    point.lambda[i] =
+        point.inverse_mass[i] > 0.0 ? dot(point.directions[i], constraint.start) : 0.0;
   }
   point.lambda[0] = std::max(0.0, point.lambda[0]);
   // No sweep looks along the tangents of these.

@@ -5,13 +5,14 @@
 
 #include "hovercraft_sim/contact/active_set_tolerances.h"
 #include "hovercraft_sim/math/contact_tolerances.h"
+#include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
 namespace {
 
 Vector3 velocityAt(const ContactSolver& solver, const ImpactPoint& point) {
-  const ContactBody& A = solver.bodies()[static_cast<std::size_t>(point.a)];
-  const ContactBody& B = solver.bodies()[static_cast<std::size_t>(point.b)];
+  const ContactBody& A = solver.bodies()[at(point.a)];
+  const ContactBody& B = solver.bodies()[at(point.b)];
   return velocityOfPoint(B.twist, point.p_WC, B.p_WB) -
          velocityOfPoint(A.twist, point.p_WC, A.p_WB);
 }
@@ -31,7 +32,7 @@ double scaleOf(const ContactSolver& solver, const std::vector<ImpactPoint>& poin
   double scale = 0.0;
   for (const ImpactPoint& point : points) {
     for (const std::int32_t index : {point.a, point.b}) {
-      const ContactBody& body = solver.bodies()[static_cast<std::size_t>(index)];
+      const ContactBody& body = solver.bodies()[at(index)];
       scale = std::max(
           scale, norm(body.twist.v_WB) + norm(body.twist.w_WB) * norm(point.p_WC - body.p_WB));
     }
@@ -71,18 +72,18 @@ bool ImpactSolver::roundOf(ContactSolver& solver, std::vector<ImpactPoint>& poin
     const double speed = dot(point.nhat_AB_W, v);
     speeds_.push_back(speed);
     if (!all_plastic && speed > kStandingPoint * scale) continue;
-    ContactDemand asked;
-    asked.a = point.a;
-    asked.b = point.b;
-    asked.nhat_AB_W = point.nhat_AB_W;
-    asked.p_WC = point.p_WC;
-    asked.target =
+    ContactConstraint constraint;
+    constraint.a = point.a;
+    constraint.b = point.b;
+    constraint.nhat_AB_W = point.nhat_AB_W;
+    constraint.p_WC = point.p_WC;
+    constraint.target =
         all_plastic ? 0.0 : share * restitutionOf(point, speed) * bouncingSpeed(point, speed);
-    asked.friction = frictionless ? 0.0 : point.material.friction;
-    asked.bilateral = point.material.stick && !frictionless;
+    constraint.friction = frictionless ? 0.0 : point.material.friction;
+    constraint.bilateral = point.material.stick && !frictionless;
     chosen_.push_back(i);
     before_.push_back(v);
-    solver.add(asked);
+    solver.add(constraint);
   }
   const auto count = static_cast<int>(chosen_.size());
   const double left_over = std::max(residual_ * scale, kLeftResidual * may_leave_);

@@ -27,9 +27,9 @@ struct Corners {
   /// If there is no room, the corner goes without which the least area is lost.
   void add(const Vector3& p) {
     if (count == kMaxCorners) dropFlattest();
-    points[static_cast<std::size_t>(count++)] = p;
+    points[at(count++)] = p;
   }
-  const Vector3& operator[](int i) const { return points[static_cast<std::size_t>(i)]; }
+  const Vector3& operator[](int i) const { return points[at(i)]; }
 
  private:
   void dropFlattest() {
@@ -117,9 +117,9 @@ void reduce(ContactManifold& manifold, const Corners& points, const double* gaps
     for (int i = 1; i < points.count; ++i) {
       if (dot(points[i], direction) > dot(points[best], direction)) best = i;
     }
-    if (taken[static_cast<std::size_t>(best)]) continue;
-    taken[static_cast<std::size_t>(best)] = true;
-    manifold.points[static_cast<std::size_t>(manifold.count++)] = {points[best], gaps[best]};
+    if (taken[at(best)]) continue;
+    taken[at(best)] = true;
+    manifold.points[at(manifold.count++)] = {points[best], gaps[best]};
   }
 }
 
@@ -235,11 +235,11 @@ bool edgeManifold(const ConvexPolyhedron& A, const Pose& X_WA, const ConvexPolyh
 void addClosest(const ClosestFeatures& closest, ContactManifold& manifold) {
   const double enough = closest.distance + kMissedGap * std::abs(closest.distance);
   for (int i = 0; i < manifold.count; ++i) {
-    if (manifold.points[static_cast<std::size_t>(i)].gap <= enough) return;
+    if (manifold.points[at(i)].gap <= enough) return;
   }
   manifold.count = std::min(manifold.count + 1, ContactManifold::kMaxPoints);
-  manifold.points[static_cast<std::size_t>(manifold.count - 1)] = {
-      0.5 * (closest.p_WCa + closest.p_WCb), closest.distance};
+  manifold.points[at(manifold.count - 1)] = {0.5 * (closest.p_WCa + closest.p_WCb),
+                                             closest.distance};
 }
 
 }  // namespace

@@ -79,8 +79,8 @@ void HovercraftNode::run() {
   }
 }
 
-const char* HovercraftNode::take(hovercraft::Command command,
-                                 const std::optional<ros::Time>& stamp) {
+const char* HovercraftNode::accept(hovercraft::Command command,
+                                   const std::optional<ros::Time>& stamp) {
   catchUp();
   if (config_.lockstep) {
     const auto stamp_ns = stamp ? std::optional(nanosecondsOf(*stamp)) : std::nullopt;

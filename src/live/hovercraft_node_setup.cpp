@@ -87,9 +87,9 @@ void HovercraftNode::sample(const hovercraft::SensorSample& sample) {
 }
 
 void HovercraftNode::addVehicle(const ros::NodeHandle& handle, std::size_t vehicle) {
-  const auto take = [this](const hovercraft::Command& command,
-                           const std::optional<ros::Time>& stamp) {
-    return this->take(command, stamp);
+  const auto accept = [this](const hovercraft::Command& command,
+                             const std::optional<ros::Time>& stamp) {
+    return this->accept(command, stamp);
   };
   // In lockstep the states are latched: a controller answers only those that are waited at.
   const auto stands = [this] { return !config_.lockstep && this->stands(); };
@@ -97,7 +97,7 @@ void HovercraftNode::addVehicle(const ros::NodeHandle& handle, std::size_t vehic
   ros::NodeHandle(handle, craft.name).setParam(kRobotDescription, urdfOf(craft, config_.frames));
   vehicles_.push_back(std::make_unique<VehicleInterface>(
       handle, run_, vehicle, config_.frames,
-      VehicleInterface::Owner{take, stands, config_.truth_odom}, config_.lockstep));
+      VehicleInterface::Owner{accept, stands, config_.truth_odom}, config_.lockstep));
 }
 
 void HovercraftNode::addBody(const ros::NodeHandle& handle, std::size_t body) {

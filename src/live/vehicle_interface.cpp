@@ -78,7 +78,7 @@ void VehicleInterface::subscribe(ros::NodeHandle& handle) {
   const std::string all = handle.resolveName(kThrustTopic);
   const boost::function<void(const hovercraft_sim::ThrustCommand&)> on_thrust =
       [this, all](const hovercraft_sim::ThrustCommand& message) {
-        take(toCommand(message, vehicle_, run_.simulation().tick()), all, message.header.stamp);
+        receive(toCommand(message, vehicle_), all, message.header.stamp);
       };
   subscribers_.push_back(handle.subscribe<hovercraft_sim::ThrustCommand>(
       kThrustTopic, kThrustQueue, on_thrust, ros::VoidConstPtr(), hints));
@@ -92,7 +92,7 @@ void VehicleInterface::subscribeLevel(ros::NodeHandle& handle, std::size_t id, c
   const hovercraft::VehicleScenario& craft = run_.simulation().scenario().vehicles[vehicle_];
   const std::string relative = hovercraft::commandTopicOf(craft, id);
   const auto take_value = [this, id, rule, topic = handle.resolveName(relative)](double value) {
-    take(toCommand(value, id, vehicle_, run_.simulation().tick()), topic, std::nullopt, rule);
+    receive(toCommand(value, id, vehicle_), topic, std::nullopt, rule);
   };
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   if (hovercraft::isFloat32(craft, id)) {
@@ -117,8 +117,8 @@ void VehicleInterface::subscribeActuators(ros::NodeHandle& handle) {
   const std::string all = handle.resolveName(kActuatorCommandTopic);
   const boost::function<void(const hovercraft_sim::ActuatorCommand&)> on_all =
       [this, &craft, all](const hovercraft_sim::ActuatorCommand& message) {
-        take(toCommand(message, craft, vehicle_, run_.simulation().tick()), all,
-             message.header.stamp, "names and values must be of actuators, each once and finite");
+        receive(toCommand(message, craft, vehicle_), all, message.header.stamp,
+                "names and values must be of actuators, each once and finite");
       };
   subscribers_.push_back(handle.subscribe<hovercraft_sim::ActuatorCommand>(
       kActuatorCommandTopic, kThrustQueue, on_all, ros::VoidConstPtr(), hints));
@@ -127,10 +127,10 @@ void VehicleInterface::subscribeActuators(ros::NodeHandle& handle) {
   }
 }
 
-void VehicleInterface::take(const std::optional<hovercraft::Command>& command,
-                            const std::string& topic, const std::optional<ros::Time>& stamp,
-                            const char* rule) {
-  const char* refusal = command ? owner_.take(*command, stamp) : rule;
+void VehicleInterface::receive(const std::optional<hovercraft::Command>& command,
+                               const std::string& topic, const std::optional<ros::Time>& stamp,
+                               const char* rule) {
+  const char* refusal = command ? owner_.accept(*command, stamp) : rule;
   if (refusal != nullptr) {
     ++dropped_commands_;
     if (drop_warnings_.isDue(hovercraft::steadyNow())) {

@@ -136,19 +136,11 @@ hovercraft_sim::ActuatorCommand toActuatorCommand(const Command& command,
   return message;
 }
 
-std::optional<Command> toCommand(const hovercraft_sim::ThrustCommand& message, std::size_t vehicle,
-                                 hovercraft::Tick tick) {
+std::optional<Command> toCommand(const hovercraft_sim::ThrustCommand& message,
+                                 std::size_t vehicle) {
   const Vector3 thrusts(message.rear, message.left, message.right);
   if (!thrusts.allFinite()) return std::nullopt;
-  return Command{tick, vehicle, hovercraft::kAllEngines, thrusts};
-}
-
-std::optional<Command> toCommand(double thrust, hovercraft::EngineId engine, std::size_t vehicle,
-                                 hovercraft::Tick tick) {
-  if (!std::isfinite(thrust)) return std::nullopt;
-  Command command{tick, vehicle, hovercraft::maskOf(engine), {}};
-  command.thrusts[engine] = thrust;
-  return command;
+  return Command{0, vehicle, hovercraft::kAllEngines, thrusts};
 }
 
 Command toCommand(const hovercraft_sim::AppliedCommand& message, std::size_t vehicle) {
@@ -160,19 +152,17 @@ Command toCommand(const hovercraft_sim::AppliedCommand& message, std::size_t veh
   return command;
 }
 
-std::optional<Command> toCommand(double value, std::size_t id, std::size_t vehicle,
-                                 hovercraft::Tick tick) {
+std::optional<Command> toCommand(double value, std::size_t id, std::size_t vehicle) {
   if (!std::isfinite(value)) return std::nullopt;
-  Command command{tick, vehicle, 0, {}};
+  Command command{0, vehicle, 0, {}};
   addValue(command, id, value);
   return command;
 }
 
 std::optional<Command> toCommand(const hovercraft_sim::ActuatorCommand& message,
-                                 const hovercraft::VehicleScenario& craft, std::size_t vehicle,
-                                 hovercraft::Tick tick) {
+                                 const hovercraft::VehicleScenario& craft, std::size_t vehicle) {
   if (message.names.empty() || message.names.size() != message.values.size()) return std::nullopt;
-  Command command{tick, vehicle, 0, {}};
+  Command command{0, vehicle, 0, {}};
   for (std::size_t i = 0; i < message.names.size(); ++i) {
     const auto id = hovercraft::actuatorIdOf(craft, message.names[i]);
     if (!id || !std::isfinite(message.values[i])) return std::nullopt;

@@ -68,23 +68,23 @@ struct HullCorners {
 };
 
 /// How the bodies of a world meet.
-WorldRules rulesOf(const WorldScenario& world) {
-  WorldRules rules;
-  rules.tolerance = world.tolerance;
-  rules.rest_speed = world.rest_speed;
+WorldConfig configOf(const WorldScenario& world) {
+  WorldConfig config;
+  config.tolerance = world.tolerance;
+  config.rest_speed = world.rest_speed;
   const std::size_t count = world.materials.size();
-  rules.material_count = count;
-  rules.pairs.clear();
+  config.material_count = count;
+  config.pairs.clear();
   for (const MaterialScenario& a : world.materials) {
     for (const MaterialScenario& b : world.materials) {
-      rules.pairs.push_back(combined(a.surface, b.surface));
+      config.pairs.push_back(combined(a.surface, b.surface));
     }
   }
   for (const MaterialPairScenario& pair : world.material_pairs) {
-    rules.pairs[pair.first * count + pair.second] = pair.law;
-    rules.pairs[pair.second * count + pair.first] = pair.law;
+    config.pairs[pair.first * count + pair.second] = pair.law;
+    config.pairs[pair.second * count + pair.first] = pair.law;
   }
-  return rules;
+  return config;
 }
 
 std::vector<Vector3> placedPoints(std::vector<Vector3> points, const Vector3& p,
@@ -203,10 +203,10 @@ std::vector<WorldObstacle> obstaclesOf(const WorldScenario& world) {
 
 World worldOf(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
-  WorldRules rules = scenario.world ? rulesOf(*scenario.world) : WorldRules();
-  rules.bodies_meet = scenario.world.has_value();
-  rules.integrator = scenario.integrator;
-  rules.step = scenario.stepSize();
+  WorldConfig config = scenario.world ? configOf(*scenario.world) : WorldConfig();
+  config.bodies_meet = scenario.world.has_value();
+  config.integrator = scenario.integrator;
+  config.step = scenario.stepSize();
   std::vector<WorldBody> bodies;
   const auto add = [&](const VehicleScenario& body) {
     bodies.push_back({body.name, modelOf(scenario, body),
@@ -217,7 +217,7 @@ World worldOf(const Scenario& scenario) {
   if (scenario.world) {
     for (const VehicleScenario& body : scenario.world->bodies) add(body);
   }
-  return {std::move(rules), std::move(bodies),
+  return {std::move(config), std::move(bodies),
           scenario.world ? obstaclesOf(*scenario.world) : std::vector<WorldObstacle>()};
 }
 

@@ -158,7 +158,7 @@ void checkTolerance(const ConfigReader& reader, const World& world) {
   for (const WorldObstacle& obstacle : world.scene().obstacles()) {
     size = std::max(size, obstacle.hull.data().radius);
   }
-  if (world.scene().rules().tolerance >= kLeastTolerance * size) return;
+  if (world.scene().config().tolerance >= kLeastTolerance * size) return;
   reader.fail("tolerance", fmt::format("must be at least {:.3g} m, {:.0e} of the largest body",
                                        kLeastTolerance * size, kLeastTolerance));
 }
@@ -192,13 +192,13 @@ void checkStart(const ConfigReader& reader, const Scenario& scenario) {
     reader.fail(
         "", fmt::format("{} and {} overlap at the start by {:.3g} m: must be at most the "
                         "tolerance, {:.3g} m",
-                        overlap->a, overlap->b, overlap->depth, world.scene().rules().tolerance));
+                        overlap->a, overlap->b, overlap->depth, world.scene().config().tolerance));
   }
-  world.partTouching(states);
-  if (const auto squeezed = world.squeezed(states)) {
+  world.separateTouching(states);
+  if (const auto tooClose = world.tooClose(states)) {
     reader.fail("", fmt::format("{} and {} touch at the start and cannot be parted: others are in "
                                 "the way",
-                                squeezed->a, squeezed->b));
+                                tooClose->a, tooClose->b));
   }
 }
 

@@ -29,14 +29,14 @@ bool isRotation(const Matrix3& R_WB) {
 }
 
 template <class Orientation>
-bool isSound(const RigidBodyState<Orientation>& body) {
+bool isFinite(const RigidBodyState<Orientation>& body) {
   // A number that is not finite makes the sum so.
   const Vector3 sum = (body.p_WB + body.momentum_W) + body.angular_momentum_W;
   return std::isfinite((sum.x() + sum.y()) + sum.z()) && isRotation(body.orientation);
 }
 
 /// Chosen without a branch: in a planar craft half of the components are always 0.
-inline void settle(Vector3& momentum) {
+inline void flushDenormals(Vector3& momentum) {
   for (int i = 0; i < 3; ++i) {
     momentum(i) = std::abs(momentum(i)) < kSettledMomentum ? 0.0 : momentum(i);
   }
@@ -45,10 +45,10 @@ inline void settle(Vector3& momentum) {
 /// Ends what drag left of the momenta before it becomes denormal numbers.
 /// @returns false if the state is not finite.
 template <class Orientation>
-bool settle(RigidBodyState<Orientation>& body) {
-  settle(body.momentum_W);
-  settle(body.angular_momentum_W);
-  return isSound(body);
+bool flushDenormals(RigidBodyState<Orientation>& body) {
+  flushDenormals(body.momentum_W);
+  flushDenormals(body.angular_momentum_W);
+  return isFinite(body);
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ void Simulation::reset(std::int64_t seed) {
   for (const VehicleScenario& vehicle : scenario_.vehicles) start(vehicle);
   if (scenario_.world) {
     for (const VehicleScenario& body : scenario_.world->bodies) start(body);
-    world_.partTouching(state_.bodies);
+    world_.separateTouching(state_.bodies);
   }
   state_.wind_W = scenario_.wind;
   for (std::size_t body = 0; gusts_ && body < state_.bodies.size(); ++body) {
@@ -126,11 +126,11 @@ void Simulation::setMotion(std::size_t vehicle, const Vector3& p_WB, const Quate
     const auto index = static_cast<std::int32_t>(vehicle);
     auto& contacts = state_.contacts;
     contacts.erase(std::remove_if(contacts.begin(), contacts.end(),
-                                  [index](const ContactMemory& contact) {
+                                  [index](const ContactCache& contact) {
                                     return contact.a == index || contact.b == index;
                                   }),
                    contacts.end());
-    world_.partTouching(state_.bodies, index);
+    world_.separateTouching(state_.bodies, index);
   }
   if (!sensors_) return;
   sensors_->relocate(vehicle, state_.seed, state_.tick, sensedBodies(), state_.sensors);
@@ -156,8 +156,8 @@ std::optional<WorldOverlap> Simulation::overlapAt(std::size_t vehicle, const Vec
   states.at(vehicle) = placed(vehicle, p_WB, q_WB, Twist());
   const auto index = static_cast<int>(vehicle);
   if (auto overlap = world_.overlap(states, index)) return overlap;
-  world_.partTouching(states, index);
-  return world_.squeezed(states, index);
+  world_.separateTouching(states, index);
+  return world_.tooClose(states, index);
 }
 
 void Simulation::applyWrench(const ExternalWrench& wrench) {
@@ -254,12 +254,12 @@ void Simulation::takeResult() {
   const bool bodies_meet = scenario_.world.has_value();
   std::size_t body = 0;
   for (BodyState& state : result_.states) {
-    const bool is_sound = std::visit([](auto& moved) { return settle(moved); }, state);
-    if (!is_sound) failAsDiverged(body);
+    const bool is_finite = std::visit([](auto& moved) { return flushDenormals(moved); }, state);
+    if (!is_finite) failAsDiverged(body);
     ++body;
   }
   state_.bodies.swap(result_.states);
-  if (bodies_meet) state_.contacts.swap(result_.memory);
+  if (bodies_meet) state_.contacts.swap(result_.contacts);
   auto inputs = inputs_.cbegin();
   for (EngineStates& engines : state_.engines) {
     const ActuatorArray<double>& thrusts = (inputs++)->thrusts.end;
@@ -348,7 +348,7 @@ std::uint64_t Simulation::hash() const {
   }
   for (const ExternalWrench& wrench : state_.wrenches) hash.add(wrench);
   for (std::size_t i = vehicleCount(); i < state_.bodies.size(); ++i) hash.add(state_.bodies[i]);
-  for (const ContactMemory& contact : state_.contacts) hash.add(contact);
+  for (const ContactCache& contact : state_.contacts) hash.add(contact);
   addAir(hash, 0, state_.bodies.size());
   addFaults(hash, 0, vehicleCount());
   return hash.value();

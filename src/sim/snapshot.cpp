@@ -106,7 +106,7 @@ std::string commandText(const Scenario& scenario, const Command& command) {
 }
 
 /// A contact by the indices of its bodies and features: these are of the same scenario.
-std::string contactText(const ContactMemory& contact) {
+std::string contactText(const ContactCache& contact) {
   FieldsText fields;
   visitPair(contact, fields);
   visitFeatures(contact, fields);
@@ -141,7 +141,7 @@ std::string toSnapshot(const Simulation& simulation) {
                         bodyText(state.bodies[i]));
   }
   if (!state.contacts.empty()) yaml += "contacts:\n";
-  for (const ContactMemory& contact : state.contacts) yaml += contactText(contact);
+  for (const ContactCache& contact : state.contacts) yaml += contactText(contact);
   yaml += airText(scenario, state);
   yaml += sensorStatesText(simulation);
   const std::vector<Command> commands = state.commands.waiting();

@@ -42,12 +42,12 @@ SavedFeature parseFeature(const ConfigReader& reader, const ConvexPolyhedron& hu
   return saved;
 }
 
-ContactMemory parseContact(const ConfigReader& reader, const World& world) {
+ContactCache parseContact(const ConfigReader& reader, const World& world) {
   reader.allowOnly({"a", "b", "kind_a", "index_a", "kind_b", "index_b", "hint_a", "hint_b",
                     "resting", "points"});
   const auto moving = static_cast<std::int32_t>(world.scene().bodies().size());
   const std::int32_t all = moving + static_cast<std::int32_t>(world.scene().obstacles().size());
-  ContactMemory contact;
+  ContactCache contact;
   contact.a = index(reader, "a", 0, moving);
   contact.b = index(reader, "b", contact.a + 1, all);
   const SavedFeature a =
@@ -73,12 +73,12 @@ ContactMemory parseContact(const ConfigReader& reader, const World& world) {
 
 }  // namespace
 
-std::vector<ContactMemory> parseContactMemories(const ConfigReader& reader, const World* world) {
-  std::vector<ContactMemory> contacts;
+std::vector<ContactCache> parseContactCaches(const ConfigReader& reader, const World* world) {
+  std::vector<ContactCache> contacts;
   if (!reader.has("contacts")) return contacts;
   if (world == nullptr) reader.fail("contacts", "needs a world: in the scenario");
   for (const ConfigReader& entry : reader.list("contacts")) {
-    const ContactMemory contact = parseContact(entry, *world);
+    const ContactCache contact = parseContact(entry, *world);
     const bool ascends = contacts.empty() || contacts.back().a < contact.a ||
                          (contacts.back().a == contact.a && contacts.back().b < contact.b);
     if (!ascends) entry.fail("", "pairs must stand once and in ascending order");

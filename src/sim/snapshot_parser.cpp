@@ -256,7 +256,7 @@ SimulationState parseState(const ConfigReader& reader, const Scenario& scenario,
     reader.fail("bodies", "there are none in the scenario");
   }
   parseAirState(reader, scenario, state);
-  state.contacts = parseContactMemories(reader, started.world());
+  state.contacts = parseContactCaches(reader, started.world());
   state.sensors = parseSensorStates(reader, state.tick, started);
   state.commands = parseCommands(reader, scenario, state.tick);
   return state;

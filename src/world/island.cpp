@@ -10,7 +10,7 @@
 namespace hovercraft {
 void Island::begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
                    const std::vector<BodyState>& states, const std::vector<BodyState>& ends,
-                   const std::vector<ContactMemory>& memory) {
+                   const std::vector<ContactCache>& contacts) {
   s_.slots.resize(scene_.bodies().size());
   s_.members.resize(bodies.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -28,16 +28,16 @@ void Island::begin(const std::vector<std::int32_t>& bodies, const std::vector<Sc
     IslandLink& link = s_.links[k];
     const auto [a, b] = pairs[k];
     const auto known = std::lower_bound(
-        memory.begin(), memory.end(), pairs[k], [](const ContactMemory& m, const auto& pair) {
+        contacts.begin(), contacts.end(), pairs[k], [](const ContactCache& m, const auto& pair) {
           return m.a < pair.first || (m.a == pair.first && m.b < pair.second);
         });
-    const bool found = known != memory.end() && known->a == a && known->b == b;
-    link.memory = found ? *known : ContactMemory();
-    link.memory.a = a;
-    link.memory.b = b;
+    const bool found = known != contacts.end() && known->a == a && known->b == b;
+    link.cache = found ? *known : ContactCache();
+    link.cache.a = a;
+    link.cache.b = b;
     link.material = scene_.lawOf(pairs[k]);
     link.impacts = 0;
-    link.rested = link.memory.resting;
+    link.rested = link.cache.resting;
     link.slot_a = s_.slots[at(a)];
     link.slot_b = scene_.isFixed(b) ? 0 : s_.slots[at(b)];
   }
@@ -57,23 +57,23 @@ const StepMotion& Island::motionOfIndex(std::int32_t index) const {
 double Island::restSpeed(const IslandLink& link) const {
   const bool is_spent = link.impacts >= kMaxBounces && link.material.restitution < 1.0;
   if (plastic_ || is_spent) return std::numeric_limits<double>::infinity();
-  if (link.memory.resting) {
-    return std::max(scene_.rules().rest_speed,
-                    kRestGap * scene_.rules().tolerance / scene_.rules().step);
+  if (link.cache.resting) {
+    return std::max(scene_.config().rest_speed,
+                    kRestGap * scene_.config().tolerance / scene_.config().step);
   }
-  return std::max(kStillSpeed, (1.0 - link.material.restitution) * scene_.rules().rest_speed);
+  return std::max(kStillSpeed, (1.0 - link.material.restitution) * scene_.config().rest_speed);
 }
 
 /// Closest features of every pair, and the points of those that touch.
-void Island::look(double left) {
-  const WorldRules& rules = scene_.rules();
-  const double band = rules.tolerance + 2.0 * rules.rest_speed * left;
+void Island::updateContacts(double left) {
+  const WorldConfig& config = scene_.config();
+  const double band = config.tolerance + 2.0 * config.rest_speed * left;
   for (IslandLink& link : s_.links) {
-    const std::int32_t a = link.memory.a;
-    const std::int32_t b = link.memory.b;
+    const std::int32_t a = link.cache.a;
+    const std::int32_t b = link.cache.b;
     closestNow(link);
-    if (link.closest.distance > kLostContact * rules.tolerance) link.memory.resting = false;
-    link.touching = link.closest.distance <= rules.tolerance;
+    if (link.closest.distance > kLostContact * config.tolerance) link.cache.resting = false;
+    link.touching = link.closest.distance <= config.tolerance;
     if (!link.touching) continue;
     link.manifold = contactManifold(scene_.hullOf(a), poseOfIndex(a), scene_.hullOf(b),
                                     poseOfIndex(b), link.closest, band);
@@ -83,8 +83,8 @@ void Island::look(double left) {
 /// Sets bodies apart again whose gap is nearly used up, by shifts of a part of the
 /// tolerance, as their masses share them. All of it is undone if some pair would be left without a
 /// gap. @returns whether bodies were moved.
-bool Island::repair() {
-  const double tolerance = scene_.rules().tolerance;
+bool Island::correctPositions() {
+  const double tolerance = scene_.config().tolerance;
   const double wanted = kRestGap * tolerance;
   double least = wanted;
   for (const IslandLink& link : s_.links) {
@@ -95,7 +95,7 @@ bool Island::repair() {
     member.end = member.state;
     member.ends_freely = false;
   }
-  for (int sweep = 0; sweep < kMaxRepairSweeps && repairSweep(); ++sweep) {
+  for (int sweep = 0; sweep < kMaxCorrectionSweeps && correctionSweep(); ++sweep) {
   }
   double left = wanted;
   for (IslandLink& link : s_.links) left = std::min(left, closestNow(link).distance);
@@ -109,8 +109,8 @@ bool Island::repair() {
 }
 
 /// @returns whether some pair was set apart.
-bool Island::repairSweep() {
-  const double tolerance = scene_.rules().tolerance;
+bool Island::correctionSweep() {
+  const double tolerance = scene_.config().tolerance;
   bool moved_any = false;
   for (IslandLink& link : s_.links) {
     const double gap = closestNow(link).distance;
@@ -121,17 +121,17 @@ bool Island::repairSweep() {
 }
 
 ClosestFeatures Island::closestNow(IslandLink& link) {
-  const std::int32_t a = link.memory.a;
-  const std::int32_t b = link.memory.b;
+  const std::int32_t a = link.cache.a;
+  const std::int32_t b = link.cache.b;
   link.closest = closestFeatures(scene_.hullOf(a), poseOfIndex(a), scene_.hullOf(b), poseOfIndex(b),
-                                 link.memory.features);
+                                 link.cache.features);
   return link.closest;
 }
 
 /// @param by m. @returns whether either body can move that way.
 bool Island::shiftApart(const IslandLink& link, double by) {
   const auto shifts =
-      scene_.shiftsApart({link.memory.a, link.memory.b}, link.closest.nhat_AB_W, by, -1);
+      scene_.shiftsApart({link.cache.a, link.cache.b}, link.closest.nhat_AB_W, by, -1);
   if (!shifts) return false;
   const std::int32_t slots[2] = {link.slot_a, link.slot_b};
   for (std::size_t side = 0; side < 2; ++side) {
@@ -152,15 +152,15 @@ BodyState Island::moved(const IslandMember& member, double from, double to,
 
 /// The earliest impact in a piece of `duration`. @param share of the distance that counts as one.
 bool Island::firstImpact(double duration, double share, double& time) const {
-  const double tolerance = kRestGap * scene_.rules().tolerance;
+  const double tolerance = kRestGap * scene_.config().tolerance;
   bool any = false;
   time = duration;
   for (const IslandLink& link : s_.links) {
     // Two bodies that touch may come no nearer than half of what they are.
     const double within = share * std::min(tolerance, 0.5 * link.closest.distance);
     if (!(within > 0.0)) continue;
-    const std::int32_t a = link.memory.a;
-    const std::int32_t b = link.memory.b;
+    const std::int32_t a = link.cache.a;
+    const std::int32_t b = link.cache.b;
     const StepMotion& motion_a = motionOfIndex(a);
     const StepMotion& motion_b = motionOfIndex(b);
     const ImpactSearch search = {time, within, ImpactMethod::kAdvance};
@@ -179,7 +179,7 @@ bool Island::firstImpact(double duration, double share, double& time) const {
 
 /// Moves all bodies until the end of the step or the first impact. @returns the time then, s.
 double Island::advance(double now) {
-  const double h = scene_.rules().step;
+  const double h = scene_.config().step;
   double to = h;
   double share = 1.0;
   for (int cut = 0; cut < kMaxCuts; ++cut) {
@@ -200,7 +200,8 @@ double Island::advance(double now) {
     double time = duration;
     if (!firstImpact(duration, share, time)) {
       for (IslandMember& member : s_.members) {
-        member.travelled += scene_.travelOf(at(member.index), member.state, member.end, duration);
+        member.travelled +=
+            scene_.motionBoundOf(at(member.index), member.state, member.end, duration);
         member.state = member.end;
         member.pose = poseOf(member.state);
       }
@@ -219,18 +220,18 @@ bool Island::isTouched() const {
 
 /// Where bodies touch, both Eulers give way: the end of the whole step is another one.
 void Island::leaveEuler() {
-  if (!isEuler(scene_.rules().integrator)) return;
+  if (!isEuler(scene_.config().integrator)) return;
   for (IslandMember& member : s_.members) member.ends_freely = false;
 }
 
 /// Nothing touches: no forces.
-void Island::leave() {
+void Island::clearForces() {
   for (IslandMember& member : s_.members) member.contact = Wrench();
-  for (IslandLink& link : s_.links) link.memory.count = 0;
+  for (IslandLink& link : s_.links) link.cache.count = 0;
 }
 
 bool Island::run() {
-  const double h = scene_.rules().step;
+  const double h = scene_.config().step;
   const int bound = kMaxEvents + kMaxEventsPerPair * static_cast<int>(s_.links.size());
   plastic_ = false;
   stuck_ = false;
@@ -238,17 +239,17 @@ bool Island::run() {
   for (int event = 0; event < 2 * bound; ++event) {
     plastic_ = event >= bound;
     now_ = now;
-    look(h - now);
+    updateContacts(h - now);
     for (IslandLink& link : s_.links) link.found = link.closest.distance;
-    if (repair()) look(h - now);
+    if (correctPositions()) updateContacts(h - now);
     touched_ = isTouched();
     if (touched_) {
       leaveEuler();
-      takeTwists();
-      strike(now);
-      press(now);
+      updateTwists();
+      solveImpacts(now);
+      solveRestingContacts(now);
     } else {
-      leave();
+      clearForces();
     }
     const double then = advance(now);
     stuck_ = !(then > now);

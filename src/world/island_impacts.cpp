@@ -32,7 +32,7 @@ struct PairImpact {
 
 PairImpact sumOf(const IslandLink& link, const std::vector<ImpactPoint>& points) {
   PairImpact sum;
-  const std::size_t end = link.first_point + static_cast<std::size_t>(link.point_count);
+  const std::size_t end = link.first_point + at(link.point_count);
   for (std::size_t k = link.first_point; k < end; ++k) {
     const ImpactPoint& point = points[k];
     const double size = norm(point.impulse);
@@ -60,11 +60,11 @@ void applyToBoth(const ImpactPoint& point, const Scene& scene, std::vector<Islan
 }  // namespace
 
 /// The impact of all points that touch now. @param now s, from the start of the step.
-void Island::strike(double now) {
+void Island::solveImpacts(double now) {
   for (IslandLink& link : s_.links) {
-    if (link.touching) turn(link, false);
+    if (link.touching) updateEntryNormal(link, false);
   }
-  if (!isStruck()) return;
+  if (!hasImpact()) return;
   addImpactPoints();
   addBodies(false);
   slowBounces();
@@ -72,8 +72,8 @@ void Island::strike(double now) {
   for (const ImpactPoint& point : s_.impact_points) {
     if (squaredNorm(point.impulse) > 0.0) applyToBoth(point, scene_, s_.members);
   }
-  takeTwists();
-  report(now);
+  updateTwists();
+  recordImpacts(now);
 }
 
 /// All points that touch now.
@@ -84,8 +84,8 @@ void Island::addImpactPoints() {
     link.point_count = 0;
     if (!link.touching) continue;
     for (int i = 0; i < link.manifold.count; ++i) {
-      const ContactPoint& contact = link.manifold.points[static_cast<std::size_t>(i)];
-      if (contact.gap > scene_.rules().tolerance) continue;
+      const ContactPoint& contact = link.manifold.points[at(i)];
+      if (contact.gap > scene_.config().tolerance) continue;
       ImpactPoint point;
       point.a = link.slot_a;
       point.b = link.slot_b;
@@ -102,19 +102,19 @@ void Island::addImpactPoints() {
 /// What a step without contact does to the points of a pair.
 Island::FreeStep Island::freeStepOf(const IslandLink& link, const ImpactPoint& point) const {
   FreeStep step;
-  const double h = scene_.rules().step;
+  const double h = scene_.config().step;
   for (const std::int32_t slot : {link.slot_a, link.slot_b}) {
     if (slot == 0) continue;
     const Vector3 gained = velocityAtEnd(slot, point.p_WC) - velocityNow(slot, point.p_WC);
     step.pressed = std::max(step.pressed, std::abs(dot(point.nhat_AB_W, gained)) / h);
   }
-  if (scene_.rules().integrator == Integrator::kEuler) step.gain = step.pressed * h;
+  if (scene_.config().integrator == Integrator::kEuler) step.gain = step.pressed * h;
   return step;
 }
 
 /// What of an approach does not bounce, of pairs that come to rest some time. A flight that would
 /// not come out of the tolerance again is none: such would go on for ever, as the gap that is used
-/// up there is repaired. And with explicit Euler each flight ends faster than it began.
+/// up there is corrected. And with explicit Euler each flight ends faster than it began.
 void Island::slowBounces() {
   const bool any = std::any_of(s_.links.begin(), s_.links.end(), [](const IslandLink& link) {
     const double e = link.material.restitution;
@@ -125,11 +125,10 @@ void Island::slowBounces() {
   for (const IslandLink& link : s_.links) {
     const double e = link.material.restitution;
     if (!(e > 0.0 && e < 1.0)) continue;
-    for (std::size_t k = link.first_point;
-         k < link.first_point + static_cast<std::size_t>(link.point_count); ++k) {
+    for (std::size_t k = link.first_point; k < link.first_point + at(link.point_count); ++k) {
       ImpactPoint& point = s_.impact_points[k];
       const FreeStep step = freeStepOf(link, point);
-      const double rise = kRestGap * scene_.rules().tolerance;
+      const double rise = kRestGap * scene_.config().tolerance;
       // What it fell below the gap that is kept, and is lifted by again, is no height of fall.
       const Vector3 v = velocityNow(link.slot_b, point.p_WC) - velocityNow(link.slot_a, point.p_WC);
       const double u = std::max(0.0, -dot(point.nhat_AB_W, v));
@@ -142,20 +141,20 @@ void Island::slowBounces() {
 
 /// The approach that a resting contact stops by itself, m/s.
 double Island::slowApproach() const {
-  return kRestApproach * kRestGap * scene_.rules().tolerance / scene_.rules().step;
+  return kRestApproach * kRestGap * scene_.config().tolerance / scene_.config().step;
 }
 
 /// Whether some pair that touches approaches faster than its resting contact stops by itself.
-bool Island::isStruck() const {
+bool Island::hasImpact() const {
   return std::any_of(s_.links.begin(), s_.links.end(),
-                     [this](const IslandLink& link) { return link.touching && isStruck(link); });
+                     [this](const IslandLink& link) { return link.touching && hasImpact(link); });
 }
 
-bool Island::isStruck(const IslandLink& link) const {
-  const double bound = link.memory.resting ? slowApproach() : kStillSpeed;
+bool Island::hasImpact(const IslandLink& link) const {
+  const double bound = link.cache.resting ? slowApproach() : kStillSpeed;
   for (int i = 0; i < link.manifold.count; ++i) {
     const ContactPoint& contact = link.manifold.points[at(i)];
-    if (contact.gap > scene_.rules().tolerance) continue;
+    if (contact.gap > scene_.config().tolerance) continue;
     const Vector3 v =
         velocityNow(link.slot_b, contact.p_WC) - velocityNow(link.slot_a, contact.p_WC);
     if (dot(link.manifold.nhat_AB_W, v) < -bound) return true;
@@ -164,16 +163,16 @@ bool Island::isStruck(const IslandLink& link) const {
 }
 
 /// A record for each pair that met faster than what counts as rest.
-void Island::report(double now) {
+void Island::recordImpacts(double now) {
   for (IslandLink& link : s_.links) {
     const PairImpact sum = sumOf(link, s_.impact_points);
     if (sum.weight == 0.0) continue;
     ++link.impacts;
-    if (!sum.bounced && sum.approach < scene_.rules().rest_speed) continue;  // comes to rest
+    if (!sum.bounced && sum.approach < scene_.config().rest_speed) continue;  // comes to rest
     ContactRecord record;
     record.kind = sum.bounced ? ContactKind::kBounce : ContactKind::kStick;
-    record.a = link.memory.a;
-    record.b = link.memory.b;
+    record.a = link.cache.a;
+    record.b = link.cache.b;
     record.time = now;
     record.p_WC = sum.moment / sum.weight;
     record.nhat_AB_W = link.manifold.nhat_AB_W;

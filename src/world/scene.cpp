@@ -56,17 +56,18 @@ std::vector<Scene::Side> Scene::sidesOf(const WorldObstacle& obstacle) {
   return sides;
 }
 
-Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
-    : rules_(std::move(rules)), bodies_(std::move(bodies)), obstacles_(std::move(obstacles)) {
+Scene::Scene(WorldConfig config, std::vector<WorldBody> bodies,
+             std::vector<WorldObstacle> obstacles)
+    : config_(std::move(config)), bodies_(std::move(bodies)), obstacles_(std::move(obstacles)) {
   const FloatingPointEnvironment environment;
-  demand(rules_.step > 0.0 && rules_.tolerance > 0.0, "a world needs a step and a tolerance");
-  demand(rules_.pairs.size() == rules_.material_count * rules_.material_count,
+  demand(config_.step > 0.0 && config_.tolerance > 0.0, "a world needs a step and a tolerance");
+  demand(config_.pairs.size() == config_.material_count * config_.material_count,
          "a world needs a law for each pair of materials");
   for (const WorldBody& body : bodies_) {
-    planar_.push_back(PlanarCraft::has(rules_.integrator) ? PlanarCraft::of(body.model)
-                                                          : std::nullopt);
+    planar_.push_back(PlanarCraft::has(config_.integrator) ? PlanarCraft::of(body.model)
+                                                           : std::nullopt);
   }
-  if (!rules_.bodies_meet) return;
+  if (!config_.bodies_meet) return;
   for (const WorldBody& body : bodies_) {
     demand(body.hull.has_value(), "a body that meets others needs a hull");
     extents_.push_back(extentOf(body));
@@ -82,29 +83,26 @@ Scene::Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
 }
 
 const std::string& Scene::nameOf(std::int32_t index) const {
-  const auto i = static_cast<std::size_t>(index);
-  return isFixed(index) ? obstacles_[i - bodies_.size()].name : bodies_[i].name;
+  return isFixed(index) ? obstacles_[obstacleAt(index)].name : bodies_[at(index)].name;
 }
 
 const ConvexPolyhedron& Scene::hullOf(std::int32_t index) const {
-  const auto i = static_cast<std::size_t>(index);
-  return isFixed(index) ? obstacles_[i - bodies_.size()].hull : *bodies_[i].hull;
+  return isFixed(index) ? obstacles_[obstacleAt(index)].hull : *bodies_[at(index)].hull;
 }
 
 int Scene::materialOf(std::int32_t index) const {
-  const auto i = static_cast<std::size_t>(index);
-  return isFixed(index) ? obstacles_[i - bodies_.size()].material : bodies_[i].material;
+  return isFixed(index) ? obstacles_[obstacleAt(index)].material : bodies_[at(index)].material;
 }
 
 Pose Scene::poseIn(const std::vector<BodyState>& states, std::int32_t index) const {
-  return isFixed(index) ? fixedPose(index) : poseOf(states[static_cast<std::size_t>(index)]);
+  return isFixed(index) ? fixedPose(index) : poseOf(states[at(index)]);
 }
 
 Twist Scene::twistAt(std::int32_t body, const BodyState& state, const StepInputs& inputs,
                      double time) const {
-  const HovercraftModel& model = bodies_[static_cast<std::size_t>(body)].model;
+  const HovercraftModel& model = bodies_[at(body)].model;
   if (model.rotors.empty()) return twistOf(state, model.mobility);
-  const ActuatorArray<double> levels = inputs.thrusts.at(time / rules_.step);
+  const ActuatorArray<double> levels = inputs.thrusts.at(time / config_.step);
   return twistOf(state, model.mobility, rotorMomentum(model.rotors, levels));
 }
 
@@ -124,13 +122,13 @@ void Scene::moveAll(const std::vector<BodyState>& states, const std::vector<Step
     if (const auto* start = std::get_if<RigidBodyState<Quaternion>>(&*state)) {
       auto& moved = *std::get_if<RigidBodyState<Quaternion>>(&*end);
       if (*planar && (*planar)->takes(*start, system)) {
-        (*planar)->step(rules_.integrator, *start, system, rules_.step, moved);
+        (*planar)->step(config_.integrator, *start, system, config_.step, moved);
       } else {
-        moved = bodyStep<Quaternion>(rules_.integrator, *start, system, rules_.step);
+        moved = bodyStep<Quaternion>(config_.integrator, *start, system, config_.step);
       }
     } else {
       *std::get_if<RigidBodyState<Matrix3>>(&*end) = bodyStep<Matrix3>(
-          rules_.integrator, *std::get_if<RigidBodyState<Matrix3>>(&*state), system, rules_.step);
+          config_.integrator, *std::get_if<RigidBodyState<Matrix3>>(&*state), system, config_.step);
     }
     ++state, ++input, ++end, ++planar;
   }
@@ -138,9 +136,9 @@ void Scene::moveAll(const std::vector<BodyState>& states, const std::vector<Step
 
 BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInputs& inputs,
                        const StepPiece& piece, const Wrench& contact) const {
-  const bool is_cut = piece.from > 0.0 || piece.to < rules_.step;
+  const bool is_cut = piece.from > 0.0 || piece.to < config_.step;
   const ThrustCourse thrusts =
-      is_cut ? inputs.thrusts.piece(piece.from, piece.to, rules_.step) : inputs.thrusts;
+      is_cut ? inputs.thrusts.piece(piece.from, piece.to, config_.step) : inputs.thrusts;
   ExternalLoad load = inputs.is_loaded ? inputs.load : ExternalLoad();
   const bool is_pressed = squaredNorm(contact.force) > 0.0 || squaredNorm(contact.torque) > 0.0;
   if (is_pressed) load.in_world = load.in_world + contact;
@@ -148,13 +146,13 @@ BodyState Scene::moved(std::size_t body, const BodyState& state, const StepInput
   FanSpeedCourse cut_speeds;
   const FanSpeedCourse* fan_speeds = &inputs.fan_speeds;
   if (is_cut && has_fans) {
-    cut_speeds = inputs.fan_speeds.piece(piece.from, piece.to, rules_.step);
+    cut_speeds = inputs.fan_speeds.piece(piece.from, piece.to, config_.step);
     fan_speeds = &cut_speeds;
   }
   const DrivenBody system = {bodies_[body].model, thrusts, inputs.environment,
                              inputs.is_loaded || is_pressed ? &load : nullptr, fan_speeds};
   const Integrator integrator =
-      piece.in_contact && isEuler(rules_.integrator) ? Integrator::kHeun : rules_.integrator;
+      piece.in_contact && isEuler(config_.integrator) ? Integrator::kHeun : config_.integrator;
   return std::visit(
       [&](const auto& start) -> BodyState {
         return bodyStep<decltype(start.orientation)>(integrator, start, system,
@@ -176,30 +174,30 @@ inline Scene::Course Scene::courseOf(std::size_t body, const BodyState& from, co
       from);
 }
 
-Vector3 Scene::travelOf(std::size_t body, const Course& course, double h) const {
+Vector3 Scene::motionBoundOf(std::size_t body, const Course& course, double h) const {
   const Extent& extent = extents_[body];
   const double spin = extent.spin_per_L * (extent.rotors + std::sqrt(course.spin));
   return course.straight + (spin * h * extent.radius) * extent.turns;
 }
 
-Vector3 Scene::travelOf(std::size_t body, const BodyState& from, const BodyState& to,
-                        double h) const {
-  return travelOf(body, courseOf(body, from, to, h), h);
+Vector3 Scene::motionBoundOf(std::size_t body, const BodyState& from, const BodyState& to,
+                             double h) const {
+  return motionBoundOf(body, courseOf(body, from, to, h), h);
 }
 
-Scene::TravelBound Scene::travelBoundOf(std::size_t body, const BodyState& from,
-                                        const BodyState& to, double h) const {
+Scene::KeptMotionBound Scene::keptBoundOf(std::size_t body, const BodyState& from,
+                                          const BodyState& to, double h) const {
   const Extent& extent = extents_[body];
   Course course = courseOf(body, from, to, h);
   const double still = extent.spin_per_L * h * extent.radius;
-  const double least = still > 0.0 ? rules_.tolerance / still : 0.0;
-  const double spin = kTravelRoom * std::sqrt(course.spin) + least;
-  course.straight = kTravelRoom * course.straight + Vector3::Constant(rules_.tolerance);
+  const double least = still > 0.0 ? config_.tolerance / still : 0.0;
+  const double spin = kKeptBoundFactor * std::sqrt(course.spin) + least;
+  course.straight = kKeptBoundFactor * course.straight + Vector3::Constant(config_.tolerance);
   course.spin = spin * spin;
-  return {course.straight, course.spin, travelOf(body, course, h)};
+  return {course.straight, course.spin, motionBoundOf(body, course, h)};
 }
 
-bool Scene::holds(const TravelBound& bound, std::size_t body, const BodyState& from,
+bool Scene::holds(const KeptMotionBound& bound, std::size_t body, const BodyState& from,
                   const BodyState& to, double h) const {
   const Course course = courseOf(body, from, to, h);
   return course.straight.x() <= bound.straight.x() && course.straight.y() <= bound.straight.y() &&
@@ -214,46 +212,48 @@ AxisAlignedBox Scene::boxOf(std::size_t body, const Pose& pose, const Vector3& m
 }
 
 /// By how much the body stays on the outer side, m.
-inline double Scene::beyond(const Extent& extent, const Pose& pose, const Vector3& travel,
+inline double Scene::beyond(const Extent& extent, const Pose& pose, const Vector3& motion_bound,
                             const Side& side) const {
   const Vector3 center = transform(pose, extent.center_B);
   const Vector3 n_B = transposeTimes(pose.R_AB, side.normal).cwiseAbs();
-  const double reach = dot(n_B, extent.half_B) + dot(Vector3(side.normal.cwiseAbs()), travel) +
-                       kLostContact * rules_.tolerance;
+  const double reach = dot(n_B, extent.half_B) +
+                       dot(Vector3(side.normal.cwiseAbs()), motion_bound) +
+                       kLostContact * config_.tolerance;
   return dot(side.normal, center) - side.offset - reach;
 }
 
-inline bool Scene::isOutside(const Extent& extent, const Pose& pose, const Vector3& travel,
+inline bool Scene::isOutside(const Extent& extent, const Pose& pose, const Vector3& motion_bound,
                              const Side& side) const {
-  return beyond(extent, pose, travel, side) > 0.0;
+  return beyond(extent, pose, motion_bound, side) > 0.0;
 }
 
-Scene::Separation Scene::separationOf(std::size_t body, const Pose& pose, const Vector3& travel,
-                                      std::int32_t obstacle, int side) const {
+Scene::Separation Scene::separationOf(std::size_t body, const Pose& pose,
+                                      const Vector3& motion_bound, std::int32_t obstacle,
+                                      int side) const {
   Separation result;
-  const auto& sides = obstacle_sides_[static_cast<std::size_t>(obstacle) - bodies_.size()];
+  const auto& sides = obstacle_sides_[obstacleAt(obstacle)];
   if (sides.empty()) return result;
   const Side& plane = sides[at(side)];
   const Extent& extent = extents_[body];
   const double size = norm(extent.center_B) + norm(extent.half_B);
   result.normal = plane.normal;
-  result.gap = beyond(extent, pose, travel, plane);
+  result.gap = beyond(extent, pose, motion_bound, plane);
   result.per_turn = size * dot(Vector3(plane.normal.cwiseAbs()), extent.turns);
-  result.size = size + std::abs(plane.offset) + travel.maxCoeff();
+  result.size = size + std::abs(plane.offset) + motion_bound.maxCoeff();
   return result;
 }
 
-bool Scene::staysOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+bool Scene::staysOutside(std::size_t body, const Pose& pose, const Vector3& motion_bound,
                          std::int32_t obstacle, int side) const {
-  const auto& sides = obstacle_sides_[static_cast<std::size_t>(obstacle) - bodies_.size()];
-  return !sides.empty() && isOutside(extents_[body], pose, travel, sides[at(side)]);
+  const auto& sides = obstacle_sides_[obstacleAt(obstacle)];
+  return !sides.empty() && isOutside(extents_[body], pose, motion_bound, sides[at(side)]);
 }
 
-bool Scene::findSideOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+bool Scene::findSideOutside(std::size_t body, const Pose& pose, const Vector3& motion_bound,
                             std::int32_t obstacle, int& side) const {
-  const auto& sides = obstacle_sides_[static_cast<std::size_t>(obstacle) - bodies_.size()];
+  const auto& sides = obstacle_sides_[obstacleAt(obstacle)];
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (!isOutside(extents_[body], pose, travel, sides[i])) continue;
+    if (!isOutside(extents_[body], pose, motion_bound, sides[i])) continue;
     side = static_cast<int>(i);
     return true;
   }

@@ -6,6 +6,7 @@
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 
 namespace hovercraft {
@@ -29,8 +30,9 @@ double gapOf(const AxisAlignedBox& a, const AxisAlignedBox& b) {
 
 }  // namespace
 
-World::World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles)
-    : scene_(std::move(rules), std::move(bodies), std::move(obstacles)),
+World::World(WorldConfig config, std::vector<WorldBody> bodies,
+             std::vector<WorldObstacle> obstacles)
+    : scene_(std::move(config), std::move(bodies), std::move(obstacles)),
       extents_(scene_.bodies().size()),
       poses_(extents_.size()),
       boxes_(extents_.size()),
@@ -38,34 +40,35 @@ World::World(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldO
 
 /// How far from its centre of mass a body can be near something in this step, m.
 Vector3 World::reachOf(std::size_t body) const {
-  return extents_[body].travel +
-         Vector3::Constant(scene_.radiusOf(body) + kLostContact * scene_.rules().tolerance);
+  return extents_[body].motion_bound +
+         Vector3::Constant(scene_.radiusOf(body) + kLostContact * scene_.config().tolerance);
 }
 
 /// The boxes within which the list of neighbours stays complete. A body that is far from all others
 /// gets half of the way to the nearest.
-void World::makeRoom(const std::vector<BodyState>& states) {
+void World::makeFatBoxes(const std::vector<BodyState>& states) {
   const std::size_t count = scene_.bodies().size();
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3 reach = reachOf(i);
     const Vector3& p = positionOf(states[i]);
-    extents_[i].roomy = {p - reach, p + reach};
+    extents_[i].fat_box = {p - reach, p + reach};
   }
-  rooms_.resize(count);
+  margins_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     double clear = std::numeric_limits<double>::max();
     for (std::size_t j = 0; j < count; ++j) {
-      if (j != i) clear = std::min(clear, gapOf(extents_[i].roomy, extents_[j].roomy));
+      if (j != i) clear = std::min(clear, gapOf(extents_[i].fat_box, extents_[j].fat_box));
     }
     for (std::size_t j = 0; j < scene_.obstacles().size(); ++j) {
-      clear = std::min(clear, gapOf(extents_[i].roomy, scene_.fixedBox(j)));
+      clear = std::min(clear, gapOf(extents_[i].fat_box, scene_.fixedBox(j)));
     }
-    rooms_[i] = std::max(kRoom * scene_.radiusOf(i) + kStepsAhead * extents_[i].travel.maxCoeff(),
-                         std::min(kFarRoom, 0.5 * clear));
+    margins_[i] = std::max(
+        kFatBoxMargin * scene_.radiusOf(i) + kStepsAhead * extents_[i].motion_bound.maxCoeff(),
+        std::min(kFarMargin, 0.5 * clear));
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const Vector3 room = Vector3::Constant(rooms_[i]);
-    extents_[i].roomy = {extents_[i].roomy.low - room, extents_[i].roomy.high + room};
+    const Vector3 margin = Vector3::Constant(margins_[i]);
+    extents_[i].fat_box = {extents_[i].fat_box.low - margin, extents_[i].fat_box.high + margin};
   }
 }
 
@@ -76,7 +79,7 @@ bool World::findNeighbours(const std::vector<BodyState>& states) {
   for (std::size_t i = 0; i < count && inside; ++i) {
     const Vector3 reach = reachOf(i);
     const Vector3& p = positionOf(states[i]);
-    inside = holds(extents_[i].roomy, {p - reach, p + reach});
+    inside = holds(extents_[i].fat_box, {p - reach, p + reach});
   }
   if (!inside) collectNeighbours(states);
   return !neighbours_.empty();
@@ -85,35 +88,35 @@ bool World::findNeighbours(const std::vector<BodyState>& states) {
 void World::collectNeighbours(const std::vector<BodyState>& states) {
   const std::size_t count = scene_.bodies().size();
   neighbours_.clear();
-  makeRoom(states);
+  makeFatBoxes(states);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
-      if (!extents_[i].roomy.overlaps(extents_[j].roomy)) continue;
+      if (!extents_[i].fat_box.overlaps(extents_[j].fat_box)) continue;
       neighbours_.push_back({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}});
     }
     for (std::size_t j = 0; j < scene_.obstacles().size(); ++j) {
-      if (!extents_[i].roomy.overlaps(scene_.fixedBox(j))) continue;
+      if (!extents_[i].fat_box.overlaps(scene_.fixedBox(j))) continue;
       neighbours_.push_back({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(count + j)}});
       Neighbour& known = neighbours_.back();
-      (void)scene_.findSideOutside(i, poseOf(states[i]), extents_[i].travel, known.pair.second,
-                                   known.side);
+      (void)scene_.findSideOutside(i, poseOf(states[i]), extents_[i].motion_bound,
+                                   known.pair.second, known.side);
     }
   }
   knows_neighbours_ = true;
   has_clearances_ = false;
 }
 
-/// The pairs whose boxes, as far as their bodies can travel, overlap.
+/// The pairs whose boxes, widened by the bounds on their motion, overlap.
 void World::findNearPairs(const std::vector<BodyState>& states) {
   near_.clear();
   if (!findNeighbours(states)) return;
-  takePoses(states);
+  updatePoses(states);
   for (Neighbour& neighbour : neighbours_) {
     if (!areApart(neighbour)) near_.push_back(neighbour.pair);
   }
 }
 
-void World::takePoses(const std::vector<BodyState>& states) {
+void World::updatePoses(const std::vector<BodyState>& states) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     poses_[i] = poseOf(states[i]);
     has_box_[i] = 0;
@@ -124,8 +127,8 @@ void World::takePoses(const std::vector<BodyState>& states) {
 const AxisAlignedBox& World::boxOf(std::size_t body) {
   if (has_box_[body] == 0) {
     // A resting contact that is not over is near.
-    const Vector3 touch = Vector3::Constant(kLostContact * scene_.rules().tolerance);
-    boxes_[body] = scene_.boxOf(body, poses_[body], extents_[body].travel + touch);
+    const Vector3 touch = Vector3::Constant(kLostContact * scene_.config().tolerance);
+    boxes_[body] = scene_.boxOf(body, poses_[body], extents_[body].motion_bound + touch);
     has_box_[body] = 1;
   }
   return boxes_[body];
@@ -134,13 +137,13 @@ const AxisAlignedBox& World::boxOf(std::size_t body) {
 /// Whether the two cannot come near each other in this step. The side of an obstacle is asked
 /// first: a craft that hovers over a floor is over it in each step.
 bool World::areApart(Neighbour& neighbour) {
-  const auto a = static_cast<std::size_t>(neighbour.pair.first);
-  const auto b = static_cast<std::size_t>(neighbour.pair.second);
+  const auto a = at(neighbour.pair.first);
+  const auto b = at(neighbour.pair.second);
   if (!scene_.isFixed(neighbour.pair.second)) return !boxOf(a).overlaps(boxOf(b));
   const std::int32_t obstacle = neighbour.pair.second;
-  return scene_.staysOutside(a, poses_[a], extents_[a].travel, obstacle, neighbour.side) ||
+  return scene_.staysOutside(a, poses_[a], extents_[a].motion_bound, obstacle, neighbour.side) ||
          !boxOf(a).overlaps(scene_.fixedBox(b - scene_.bodies().size())) ||
-         scene_.findSideOutside(a, poses_[a], extents_[a].travel, obstacle, neighbour.side);
+         scene_.findSideOutside(a, poses_[a], extents_[a].motion_bound, obstacle, neighbour.side);
 }
 
 /// Bodies that are near each other, directly or through others, get the least index among them.
@@ -148,14 +151,14 @@ void World::collectGroups() {
   group_.resize(scene_.bodies().size());
   for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = static_cast<std::int32_t>(i);
   const auto root = [this](std::int32_t i) {
-    while (group_[static_cast<std::size_t>(i)] != i) i = group_[static_cast<std::size_t>(i)];
+    while (group_[at(i)] != i) i = group_[at(i)];
     return i;
   };
   for (const ScenePair& pair : near_) {
     if (scene_.isFixed(pair.second)) continue;
     const std::int32_t a = root(pair.first);
     const std::int32_t b = root(pair.second);
-    group_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    group_[at(std::max(a, b))] = std::min(a, b);
   }
   for (std::size_t i = 0; i < group_.size(); ++i) group_[i] = root(static_cast<std::int32_t>(i));
 }
@@ -164,7 +167,7 @@ void World::collectGroups() {
 bool World::listGroup(std::int32_t group) {
   group_pairs_.clear();
   for (const ScenePair& pair : near_) {
-    if (group_[static_cast<std::size_t>(pair.first)] == group) group_pairs_.push_back(pair);
+    if (group_[at(pair.first)] == group) group_pairs_.push_back(pair);
   }
   group_bodies_.clear();
   for (std::size_t i = 0; i < scene_.bodies().size(); ++i) {
@@ -173,48 +176,49 @@ bool World::listGroup(std::int32_t group) {
   return !group_pairs_.empty();
 }
 
-/// Takes over what an island did. @returns false if a body came farther than its travel.
-bool World::takeIsland(StepResult& result) {
+/// Takes over what an island did. @returns false if a body went farther than its motion bound.
+bool World::collectIsland(StepResult& result) {
   bool enough = true;
   for (const IslandMember& member : scratch_.members) {
-    const auto i = static_cast<std::size_t>(member.index);
+    const auto i = at(member.index);
     result.states[i] = member.state;
     const Vector3& travelled = member.travelled;
-    if ((travelled.array() <= extents_[i].travel.array()).all()) continue;
-    extents_[i].travel = extents_[i].travel.cwiseMax(kTravelReserve * travelled);
+    if ((travelled.array() <= extents_[i].motion_bound.array()).all()) continue;
+    extents_[i].motion_bound = extents_[i].motion_bound.cwiseMax(kMotionBoundReserve * travelled);
     enough = false;
   }
-  for (const IslandLink& link : scratch_.links) result.memory.push_back(link.memory);
+  for (const IslandLink& link : scratch_.links) result.contacts.push_back(link.cache);
   return enough;
 }
 
-/// Steps each group with a near pair. @returns false if a body came farther than its travel: the
-/// step must begin anew, with more of it.
+/// Steps each group with a near pair. @returns false if a body went farther than its motion bound:
+/// the step must begin anew, with more of it.
 bool World::stepGroups(const std::vector<StepInputs>& inputs, const std::vector<BodyState>& states,
-                       const std::vector<ContactMemory>& memory, StepResult& result) {
+                       const std::vector<ContactCache>& contacts, StepResult& result) {
   collectGroups();
   bool enough = true;
   for (std::size_t first = 0; first < scene_.bodies().size(); ++first) {
     const auto group = static_cast<std::int32_t>(first);
     if (group_[first] != group || !listGroup(group)) continue;
     Island island(scene_, inputs, scratch_, result.records);
-    island.begin(group_bodies_, group_pairs_, states, result.states, memory);
+    island.begin(group_bodies_, group_pairs_, states, result.states, contacts);
     if (!island.run()) ++cut_off_;
-    enough = takeIsland(result) && enough;
+    enough = collectIsland(result) && enough;
   }
   return enough;
 }
 
-/// How far each body can travel in this step. @returns the first that would come out of reach;
+/// Bounds on how far each body moves in this step. @returns the first that would come out of reach;
 /// kNone.
-int World::takeTravel(const std::vector<BodyState>& states, const std::vector<BodyState>& ends) {
+int World::updateMotionBounds(const std::vector<BodyState>& states,
+                              const std::vector<BodyState>& ends) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     // Not less than the tolerance: what rests moves by rounding, any share of which is more than
     // none.
-    extents_[i].travel =
-        kTravelReserve * scene_.travelOf(i, states[i], ends[i], scene_.rules().step) +
-        Vector3::Constant(scene_.rules().tolerance);
-    if (!isInReach(ends[i]) || !(extents_[i].travel.maxCoeff() <= kFarthest)) {
+    extents_[i].motion_bound =
+        kMotionBoundReserve * scene_.motionBoundOf(i, states[i], ends[i], scene_.config().step) +
+        Vector3::Constant(scene_.config().tolerance);
+    if (!isInReach(ends[i]) || !(extents_[i].motion_bound.maxCoeff() <= kFarthest)) {
       return static_cast<int>(i);
     }
   }
@@ -222,30 +226,30 @@ int World::takeTravel(const std::vector<BodyState>& states, const std::vector<Bo
 }
 
 int World::step(const std::vector<StepInputs>& inputs, const std::vector<BodyState>& states,
-                const std::vector<ContactMemory>& memory, StepResult& result) {
+                const std::vector<ContactCache>& contacts, StepResult& result) {
   const FloatingPointEnvironment environment;
-  result.memory.clear();
+  result.contacts.clear();
   result.records.clear();
   scene_.moveAll(states, inputs, result.states);
-  if (!scene_.rules().bodies_meet || (was_clear_ && isClear(states, result.states))) return kNone;
-  const int lost = takeTravel(states, result.states);
+  if (!scene_.config().bodies_meet || (was_clear_ && isClear(states, result.states))) return kNone;
+  const int lost = updateMotionBounds(states, result.states);
   if (lost != kNone) return lost;
   bool done = false;
   for (int attempt = 0; attempt < kMaxRestarts && !done; ++attempt) {
     if (attempt > 0) scene_.moveAll(states, inputs, result.states);
     findNearPairs(states);
-    result.memory.clear();
+    result.contacts.clear();
     result.records.clear();
     cut_off_ = 0;
     was_clear_ = near_.empty();
-    done = was_clear_ || stepGroups(inputs, states, memory, result);
+    done = was_clear_ || stepGroups(inputs, states, contacts, result);
   }
   stalls_ += cut_off_ + (done ? 0 : 1);
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (!isInReach(result.states[i])) return static_cast<int>(i);
   }
-  std::sort(result.memory.begin(), result.memory.end(),
-            [](const ContactMemory& x, const ContactMemory& y) {
+  std::sort(result.contacts.begin(), result.contacts.end(),
+            [](const ContactCache& x, const ContactCache& y) {
               return x.a < y.a || (x.a == y.a && x.b < y.b);
             });
   return kNone;
@@ -285,43 +289,42 @@ std::optional<WorldOverlap> World::deepest(const std::vector<BodyState>& states,
 
 std::optional<WorldOverlap> World::overlap(const std::vector<BodyState>& states, int body) const {
   const FloatingPointEnvironment environment;
-  return deepest(states, body, scene_.rules().tolerance);
+  return deepest(states, body, scene_.config().tolerance);
 }
 
-std::optional<WorldOverlap> World::squeezed(const std::vector<BodyState>& states, int body) const {
+std::optional<WorldOverlap> World::tooClose(const std::vector<BodyState>& states, int body) const {
   const FloatingPointEnvironment environment;
-  return deepest(states, body, -kLeastRestGap * scene_.rules().tolerance);
+  return deepest(states, body, -kLeastRestGap * scene_.config().tolerance);
 }
 
 /// Moves both bodies of a pair apart, as their masses share it, if their gap is short of `wanted`.
 /// @param only a body, the only one that moves; -1: both. @returns whether something was moved.
-bool World::partPair(std::vector<BodyState>& states, const ScenePair& pair, double wanted,
-                     int only) const {
+bool World::separatePair(std::vector<BodyState>& states, const ScenePair& pair, double wanted,
+                         int only) const {
   const ClosestFeatures closest = scene_.closestOf(states, pair);
-  if (closest.distance >= kPartedShare * wanted) return false;
+  if (closest.distance >= kSeparatedShare * wanted) return false;
   const auto shifts = scene_.shiftsApart(pair, closest.nhat_AB_W, wanted - closest.distance, only);
   if (!shifts) return false;
   const std::int32_t sides[2] = {pair.first, pair.second};
   for (std::size_t k = 0; k < 2; ++k) {
     if (scene_.isFixed(sides[k])) continue;
-    std::visit([&](auto& state) { state.p_WB += (*shifts)[k]; },
-               states[static_cast<std::size_t>(sides[k])]);
+    std::visit([&](auto& state) { state.p_WB += (*shifts)[k]; }, states[at(sides[k])]);
   }
   return true;
 }
 
-void World::partTouching(std::vector<BodyState>& states, int body) const {
+void World::separateTouching(std::vector<BodyState>& states, int body) const {
   const FloatingPointEnvironment environment;
   std::vector<ScenePair> pairs;
   for (const ScenePair& pair : allPairs(body)) {
-    if (scene_.closestOf(states, pair).distance < kLostContact * scene_.rules().tolerance)
+    if (scene_.closestOf(states, pair).distance < kLostContact * scene_.config().tolerance)
       pairs.push_back(pair);
   }
   bool moved = true;
-  for (int sweep = 0; sweep < kMaxPartingSweeps && moved; ++sweep) {
+  for (int sweep = 0; sweep < kMaxSeparationSweeps && moved; ++sweep) {
     moved = false;
     for (const ScenePair& pair : pairs) {
-      moved = partPair(states, pair, kRestGap * scene_.rules().tolerance, body) || moved;
+      moved = separatePair(states, pair, kRestGap * scene_.config().tolerance, body) || moved;
     }
   }
 }

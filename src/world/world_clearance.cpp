@@ -4,6 +4,7 @@
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/math/tolerances.h"
 #include "hovercraft_sim/world/world.h"
 
@@ -28,20 +29,20 @@ double turnBetween(const BodyState& a, const BodyState& b) {
 
 }  // namespace
 
-/// Whether bounds on how far the bodies travel, which are kept from step to step, show that none
-/// comes near another: what the exact travel would show too.
+/// Whether bounds on the motion of the bodies, which are kept from step to step, show that none
+/// comes near another: what the exact ones would show too.
 bool World::isClear(const std::vector<BodyState>& states, const std::vector<BodyState>& ends) {
-  const double h = scene_.rules().step;
+  const double h = scene_.config().step;
   for (std::size_t i = 0; i < states.size(); ++i) {
     Extent& extent = extents_[i];
     if (!isInReach(ends[i])) return false;
     if (!scene_.holds(extent.bound, i, states[i], ends[i], h)) {
-      has_clearances_ = false;  // they were for less travel
-      extent.bound = scene_.travelBoundOf(i, states[i], ends[i], h);
-      extent.bound.travel *= kTravelReserve;
+      has_clearances_ = false;  // they were for less motion
+      extent.bound = scene_.keptBoundOf(i, states[i], ends[i], h);
+      extent.bound.motion_bound *= kMotionBoundReserve;
     }
-    extent.travel = extent.bound.travel;
-    if (!(extent.travel.maxCoeff() <= kFarthest)) return false;
+    extent.motion_bound = extent.bound.motion_bound;
+    if (!(extent.motion_bound.maxCoeff() <= kFarthest)) return false;
   }
   if (has_clearances_ && stayClear(states)) return true;
   findNearPairs(states);
@@ -58,7 +59,7 @@ bool World::stayClear(const std::vector<BodyState>& states) const {
     ++state;
   }
   return std::all_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
-    const Vector3& p_WB = positionOf(states[static_cast<std::size_t>(neighbour.pair.first)]);
+    const Vector3& p_WB = positionOf(states[at(neighbour.pair.first)]);
     return dot(neighbour.normal, p_WB) >= neighbour.least;
   });
 }
@@ -73,9 +74,9 @@ void World::makeClearances(const std::vector<BodyState>& states,
   }
   for (std::size_t i = 0; i < states.size(); ++i) {
     Extent& extent = extents_[i];
-    const double size = (extent.roomy.high - extent.roomy.low).maxCoeff();
-    const Vector3 inset = reachOf(i) + Vector3::Constant(kRoomRounding * size);
-    extent.home = {extent.roomy.low + inset, extent.roomy.high - inset};
+    const double size = (extent.fat_box.high - extent.fat_box.low).maxCoeff();
+    const Vector3 inset = reachOf(i) + Vector3::Constant(kMarginRounding * size);
+    extent.home = {extent.fat_box.low + inset, extent.fat_box.high - inset};
     extent.seen = states[i];
     extent.turn = kLongestTurn;
   }
@@ -95,12 +96,12 @@ void World::makeClearances(const std::vector<BodyState>& states,
 /// @returns false if it is not the plane of an obstacle that keeps the two apart.
 bool World::makeClearance(Neighbour& neighbour) {
   if (!scene_.isFixed(neighbour.pair.second)) return false;
-  const auto body = static_cast<std::size_t>(neighbour.pair.first);
+  const auto body = at(neighbour.pair.first);
   const Pose& pose = poses_[body];
-  const Scene::Separation apart =
-      scene_.separationOf(body, pose, extents_[body].travel, neighbour.pair.second, neighbour.side);
+  const Scene::Separation apart = scene_.separationOf(body, pose, extents_[body].motion_bound,
+                                                      neighbour.pair.second, neighbour.side);
   const double height = dot(apart.normal, pose.p_AB);
-  const double half = 0.5 * apart.gap - kRoomRounding * (std::abs(height) + apart.size);
+  const double half = 0.5 * apart.gap - kMarginRounding * (std::abs(height) + apart.size);
   if (!(half > 0.0)) return false;
   neighbour.normal = apart.normal;
   neighbour.least = height - half;
@@ -112,22 +113,23 @@ bool World::makeClearance(Neighbour& neighbour) {
 
 bool World::isClearAhead(const std::vector<BodyState>& states, double steps) const {
   const FloatingPointEnvironment environment;
-  if (!scene_.rules().bodies_meet) return true;
+  if (!scene_.config().bodies_meet) return true;
   const std::size_t count = states.size();
   const std::size_t obstacles = scene_.obstacles().size();
   if (!was_clear_ || count * (count + obstacles) > kMostPairsAhead) return false;
-  const double ahead = kTravelReserve * steps * scene_.rules().step;  // s
+  const double ahead = kMotionBoundReserve * steps * scene_.config().step;  // s
   std::vector<AxisAlignedBox> boxes;
   for (std::size_t i = 0; i < count; ++i) {
     const Mobility& mobility = scene_.mobilityOf(static_cast<std::int32_t>(i));
-    const Vector3 travel = scene_.travelOf(i, states[i], states[i], ahead) +
-                           ahead * velocityOf(states[i], mobility).cwiseAbs();
+    const Vector3 motion_bound = scene_.motionBoundOf(i, states[i], states[i], ahead) +
+                                 ahead * velocityOf(states[i], mobility).cwiseAbs();
     const Pose pose = poseOf(states[i]);
-    boxes.push_back(scene_.boxOf(i, pose, travel));
+    boxes.push_back(scene_.boxOf(i, pose, motion_bound));
     for (std::size_t j = 0; j < obstacles; ++j) {
       int side = 0;
       if (boxes[i].overlaps(scene_.fixedBox(j)) &&
-          !scene_.findSideOutside(i, pose, travel, static_cast<std::int32_t>(count + j), side)) {
+          !scene_.findSideOutside(i, pose, motion_bound, static_cast<std::int32_t>(count + j),
+                                  side)) {
         return false;
       }
     }

@@ -24,7 +24,7 @@ struct OneOnAnother {
   }
 
   ContactSolver solver;
-  ContactDemand demand;
+  ContactConstraint demand;
 };
 
 // The force of the last step is the start of the next; its direction turns with the bodies.
@@ -101,7 +101,7 @@ struct Row {
     }
     solver.add(ContactBody());
     for (int i = 0; i <= count; ++i) {
-      ContactDemand joint;
+      ContactConstraint joint;
       joint.a = i;
       joint.b = i + 1;
       joint.nhat_AB_W = Vector3(1.0, 0.0, 0.0);
@@ -167,7 +167,7 @@ TEST(ContactSolver, ATableThatTurnsTakesAlongWhatSticksToIt) {
   body.inverse_mass = Vector3::Constant(1.0);
   ContactBody table;
   table.twist.w_WB = Vector3(1.0, 1.0, 1.0);
-  ContactDemand demand;
+  ContactConstraint demand;
   demand.a = solver.add(body);
   demand.b = solver.add(table);
   demand.nhat_AB_W = Vector3(0.0, 0.0, -1.0);

@@ -167,9 +167,9 @@ TEST(ActuatorCommand, IsTakenWholeOrNotAtAll) {
   hovercraft_sim::ActuatorCommand message;
   message.names = {"tail", "bl"};
   message.values = {0.1, 0.05};
-  const auto command = toCommand(message, craft, 0, 7);
+  const auto command = toCommand(message, craft, 0);
   ASSERT_TRUE(command);
-  EXPECT_EQ(command->tick, 7);
+  EXPECT_EQ(command->tick, 0);
   EXPECT_EQ(command->engines,
             hovercraft::maskOf(std::size_t{3}) | hovercraft::maskOf(std::size_t{7}));
   EXPECT_EQ(command->thrusts[3], 0.05);
@@ -180,7 +180,7 @@ TEST(ActuatorCommand, IsTakenWholeOrNotAtAll) {
   const auto refused = [&](std::vector<std::string> names, std::vector<double> values) {
     message.names = std::move(names);
     message.values = std::move(values);
-    return !toCommand(message, craft, 0, 0);
+    return !toCommand(message, craft, 0);
   };
   EXPECT_TRUE(refused({}, {}));
   EXPECT_TRUE(refused({"bl"}, {}));
@@ -208,7 +208,7 @@ TEST(ActuatorMessages, EnginesGoWithTheOthersInOne) {
       toActuatorCommand(command, scenario.vehicles[0], ros::Time(1, 0));
   EXPECT_EQ(message.names, (std::vector<std::string>{"rear", "br"}));
   EXPECT_EQ(message.values, (std::vector<double>{0.5, 0.06}));
-  const auto back = toCommand(message, scenario.vehicles[0], 0, 0);
+  const auto back = toCommand(message, scenario.vehicles[0], 0);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->engines, hovercraft::maskOf(std::size_t{0}) | hovercraft::maskOf(std::size_t{4}));
 }
@@ -220,16 +220,16 @@ TEST(ActuatorCommand, NamesEnginesToo) {
   hovercraft_sim::ActuatorCommand message;
   message.names = {"tail", "rear"};
   message.values = {0.1, 0.03};
-  const auto command = toCommand(message, scenario.vehicles[0], 0, 7);
+  const auto command = toCommand(message, scenario.vehicles[0], 0);
   ASSERT_TRUE(command);
   EXPECT_EQ(command->engines,
             hovercraft::maskOf(std::size_t{0}) | hovercraft::maskOf(std::size_t{8}));
   EXPECT_EQ(command->thrusts[0], 0.03);
   EXPECT_EQ(command->thrusts[8], 0.1);
   message.names = {"rear", "rear"};
-  EXPECT_FALSE(toCommand(message, scenario.vehicles[0], 0, 7));
+  EXPECT_FALSE(toCommand(message, scenario.vehicles[0], 0));
   message.names = {"tail", "left"};  // it has none
-  EXPECT_FALSE(toCommand(message, scenario.vehicles[0], 0, 7));
+  EXPECT_FALSE(toCommand(message, scenario.vehicles[0], 0));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ import rosnode
 import rospkg
 import rospy
 import rostest
-from hovercraft_sim.msg import AppliedCommand, Manoeuvre, State
+from hovercraft_sim.msg import AppliedCommand, Manoeuvre, State, ThrustCommand
 from hovercraft_sim.srv import Reset
 from std_srvs.srv import Trigger
 
@@ -32,6 +32,9 @@ class PilotEndsTest(unittest.TestCase):
     def setUp(self):
         self.programs = os.path.join(os.environ['CMAKE_PREFIX_PATH'].split(':')[0], 'lib', 'hovercraft_sim')
         self.folder = tempfile.TemporaryDirectory()
+        self.simulation = None
+        if '/hovercraft_sim' not in rosnode.get_node_names():
+            self.simulation = subprocess.Popen([os.path.join(self.programs, 'hovercraft_node'), '__name:=hovercraft_sim'])
         self.heard = {'state': [], 'commands': [], 'manoeuvres': []}
         kinds = {'state': State, 'commands': AppliedCommand, 'manoeuvres': Manoeuvre}
         self.wires = {name: rospy.Subscriber(CRAFT + name, kind, self.heard[name].append, queue_size=100000) for name, kind in kinds.items()}
@@ -39,6 +42,9 @@ class PilotEndsTest(unittest.TestCase):
         self.pilots = []
 
     def tearDown(self):
+        if self.simulation:
+            self.simulation.kill()
+            self.simulation.wait()
         for pilot in self.pilots:
             pilot.kill()
             pilot.communicate()
@@ -90,12 +96,34 @@ class PilotEndsTest(unittest.TestCase):
         for state in compared:
             self.assertEqual(motion(state), motions[state.tick], f'tick {state.tick}')
 
-    def test_b_it_ends_when_the_simulation_does(self):
+    def test_b_a_state_latched_before_a_reset_is_none_of_the_run(self):
+        self.assertGreater(self.heard['state'][-1].tick, 0)
+        service('reset', Reset)()
+        answers = []
+        wire = rospy.Subscriber(CRAFT + 'thrust', ThrustCommand, answers.append)
+        self.start(RAMP)
+        wait_until(lambda: answers, 'an answer to the last state of the run before')
+        wire.unregister()
+        service('resume', Trigger)()
+        self.assertEqual(self.wait_for_end(self.pilots[0]), 0)
+        self.assertTrue(self.heard['manoeuvres'][-1].complete)
+        service('pause', Trigger)()
+
+    def test_c_it_ends_when_the_simulation_does(self):
         service('reset', Reset)()
         self.start(ENDLESS)
         service('resume', Trigger)()
         self.wait_for_states()
         rosnode.kill_nodes(['/hovercraft_sim'])
+        self.assertEqual(self.wait_for_end(self.pilots[0]), 1)
+        wait_until(lambda: self.heard['manoeuvres'], 'what was given up')
+        self.assertEqual(self.heard['manoeuvres'][0].reason, 'the simulation ended, before the first execute')
+
+    def test_d_it_ends_when_the_simulation_is_killed(self):
+        self.start(ENDLESS)
+        service('resume', Trigger)()
+        self.wait_for_states()
+        self.simulation.kill()
         self.assertEqual(self.wait_for_end(self.pilots[0]), 1)
         wait_until(lambda: self.heard['manoeuvres'], 'what was given up')
         self.assertEqual(self.heard['manoeuvres'][0].reason, 'the simulation ended, before the first execute')

@@ -132,8 +132,8 @@ class Fields {
   }
 };
 
-void addContact(Fields& fields, std::size_t k, const ContactMemory& contact) {
-  const auto of = [k](SimulationState& s) -> ContactMemory& { return s.contacts[k]; };
+void addContact(Fields& fields, std::size_t k, const ContactCache& contact) {
+  const auto of = [k](SimulationState& s) -> ContactCache& { return s.contacts[k]; };
   const std::string name = fmt::format("contacts[{}]", k);
   fields.whole(
       name + ".a", [of](auto& s) -> auto& { return of(s).a; });

@@ -141,7 +141,7 @@ TEST(StateHash, OfOneCraftChangesWithTheTickAlone) {
 // By hand, as above: what contacts remember of bodies 1 and 3; edge 5 of the one, face 2 of the
 // other, hints 6 and 7; at rest at two points of three.
 TEST(StateHash, OfAContactIsTheNumberByHand) {
-  ContactMemory contact;
+  ContactCache contact;
   contact.a = 1;
   contact.b = 3;
   contact.features = {true, {FeatureKind::kEdge, 5}, {FeatureKind::kFace, 2}, {6, 7}};

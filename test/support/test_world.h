@@ -19,7 +19,7 @@ class TestWorld {
  public:
   Vector3 gravity = Vector3::Zero();
   bool planar = false;
-  WorldRules rules;
+  WorldConfig rules;
 
   TestWorld() {
     rules.step = 0.001;
@@ -68,7 +68,7 @@ class TestWorld {
   World& world() {
     if (worlds_.empty()) {
       worlds_.emplace_back(rules, bodies_, obstacles_);
-      worlds_.back().partTouching(states);
+      worlds_.back().separateTouching(states);
       inputs.resize(states.size());
     }
     return worlds_.back();
@@ -77,9 +77,9 @@ class TestWorld {
   void step(int count = 1) {
     for (int i = 0; i < count; ++i) {
       World& stepped = world();
-      EXPECT_EQ(stepped.step(inputs, states, memory, result_), World::kNone);
+      EXPECT_EQ(stepped.step(inputs, states, contacts, result_), World::kNone);
       states.swap(result_.states);
-      memory.swap(result_.memory);
+      contacts.swap(result_.contacts);
       records.insert(records.end(), result_.records.begin(), result_.records.end());
       if (watch) least_gap = std::min(least_gap, world().leastGap(states));
     }
@@ -97,7 +97,7 @@ class TestWorld {
 
   std::vector<BodyState> states;
   std::vector<StepInputs> inputs;
-  std::vector<ContactMemory> memory;
+  std::vector<ContactCache> contacts;
   std::vector<ContactRecord> records;
   double least_gap = std::numeric_limits<double>::infinity();
   bool watch = true;

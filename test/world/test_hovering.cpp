@@ -13,7 +13,7 @@ namespace {
 using testing::atRest;
 using testing::TestWorld;
 
-bool isSame(const ContactMemory& x, const ContactMemory& y) {
+bool isSame(const ContactCache& x, const ContactCache& y) {
   return x.a == y.a && x.b == y.b && x.features.a.kind == y.features.a.kind &&
          x.features.a.index == y.features.a.index && x.features.b.kind == y.features.b.kind &&
          x.features.b.index == y.features.b.index && x.resting == y.resting && x.count == y.count;
@@ -24,15 +24,15 @@ bool isSame(const ContactMemory& x, const ContactMemory& y) {
 bool stepsAlike(TestWorld& world, const TestWorld& unused) {
   TestWorld fresh = unused;
   fresh.states = world.states;
-  fresh.memory = world.memory;
+  fresh.contacts = world.contacts;
   world.step();
   fresh.step();
   const auto& x = world.state(0);
   const auto& y = fresh.state(0);
   return x.p_WB == y.p_WB && x.momentum_W == y.momentum_W &&
          x.angular_momentum_W == y.angular_momentum_W && x.orientation.s == y.orientation.s &&
-         x.orientation.v == y.orientation.v && world.memory.size() == fresh.memory.size() &&
-         std::equal(world.memory.begin(), world.memory.end(), fresh.memory.begin(), isSame);
+         x.orientation.v == y.orientation.v && world.contacts.size() == fresh.contacts.size() &&
+         std::equal(world.contacts.begin(), world.contacts.end(), fresh.contacts.begin(), isSame);
 }
 
 /// A plate over a floor, with a wall far ahead. @param twist of it.
@@ -61,7 +61,7 @@ TEST(Hovering, OverAFloorNoPairIsNear) {
                    {Vector3(speed, 0.0, 0.0), Vector3(0.0, 0.0, 0.5)});
       for (int i = 0; i < 100; ++i) {
         world.step();
-        EXPECT_TRUE(world.memory.empty()) << planar << " " << speed;
+        EXPECT_TRUE(world.contacts.empty()) << planar << " " << speed;
       }
       EXPECT_NEAR(world.state(0).p_WB.x(), 0.1 * speed, 1e-12);
     }
@@ -85,7 +85,7 @@ TEST(Hovering, WhatIsKnownOfEarlierStepsChangesNothing) {
         std::size_t alone = 0;
         for (int step = 0; step < 1500; ++step) {
           ASSERT_TRUE(stepsAlike(world, unused)) << planar << ' ' << height << ' ' << step;
-          if (world.memory.empty()) ++alone;
+          if (world.contacts.empty()) ++alone;
         }
         EXPECT_GT(alone, 100U);
         contacts += world.records.size();

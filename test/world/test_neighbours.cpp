@@ -50,7 +50,7 @@ TEST(Neighbours, OfEarlierStepsChangeNothing) {
   for (int step = 0; step < 1500; ++step) {
     TestWorld fresh = unused;
     fresh.states = world.states;
-    fresh.memory = world.memory;
+    fresh.contacts = world.contacts;
     world.step();
     fresh.step();
     for (std::size_t i = 0; i < 3; ++i) ASSERT_TRUE(isSame(fresh.states[i], world.states[i]));

@@ -8,6 +8,7 @@
 #include "hovercraft_sim/body/rigid_body.h"
 #include "hovercraft_sim/contact/active_set_tolerances.h"
 #include "hovercraft_sim/contact/equality_solver.h"
+#include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
 
@@ -21,7 +22,7 @@ struct ContactBody {
 };
 
 /// What is asked of one point of contact: B must leave A with at least `target` along the normal.
-struct ContactDemand {
+struct ContactConstraint {
   std::int32_t a = 0;  // index of a body
   std::int32_t b = 0;  // likewise
   Vector3 nhat_AB_W = Vector3::Zero();
@@ -61,7 +62,7 @@ class ContactSolver {
   /// index.
   std::int32_t add(const ContactBody& body);
   /// Applies its starting impulse. @returns the index of the point.
-  std::size_t add(const ContactDemand& point);
+  std::size_t add(const ContactConstraint& point);
   /// Forgets the points; bodies keep their twists.
   void clearPoints() { points_.clear(); }
 
@@ -78,8 +79,8 @@ class ContactSolver {
   Vector3 velocityAt(std::size_t point) const { return velocity(points_[point]); }
   /// Where it acts, m, in W.
   Vector3 positionOf(std::size_t point) const {
-    const Point& at = points_[point];
-    return bodies_[static_cast<std::size_t>(at.a)].p_WB + at.r_a;
+    const Point& solved = points_[point];
+    return bodies_[at(solved.a)].p_WB + solved.r_a;
   }
   /// The speed that the impulse of a point took away there along the normal, m/s.
   double stoppedSpeed(std::size_t point) const {
@@ -144,15 +145,15 @@ class ContactSolver {
     return combined(point.directions, along);
   }
   Vector3 velocity(const Point& point) const {
-    const Twist& A = bodies_[static_cast<std::size_t>(point.a)].twist;
-    const Twist& B = bodies_[static_cast<std::size_t>(point.b)].twist;
+    const Twist& A = bodies_[at(point.a)].twist;
+    const Twist& B = bodies_[at(point.b)].twist;
     if (point.b_is_fixed) return (B.v_WB - A.v_WB) - cross(A.w_WB, point.r_a);
     return (B.v_WB - A.v_WB) + (cross(B.w_WB, point.r_b) - cross(A.w_WB, point.r_a));
   }
   /// @param along N s, an impulse on B along the point's directions, and against A.
   void apply(const Point& point, const Vector3& along) {
-    ContactBody& A = bodies_[static_cast<std::size_t>(point.a)];
-    ContactBody& B = bodies_[static_cast<std::size_t>(point.b)];
+    ContactBody& A = bodies_[at(point.a)];
+    ContactBody& B = bodies_[at(point.b)];
     const Vector3 impulse = inWorld(point, along);
     A.twist.v_WB -= A.inverse_mass.cwiseProduct(impulse);
     A.twist.w_WB -= combined(point.spin_a, along);

@@ -5,8 +5,8 @@
 #include "hovercraft_sim/math/tolerances.h"
 
 /// What comes before and after the step of a pack: the course of the actuators
-/// (EngineDynamics::course()), the unit quaternion, settle() of simulation.cpp, craft that are
-/// lost.
+/// (EngineDynamics::course()), the unit quaternion, flushDenormals() of simulation.cpp, craft that
+/// are lost.
 
 namespace hovercraft::lanes {
 

@@ -91,7 +91,7 @@ class HOVERCRAFT_PUBLIC HovercraftNode : private hovercraft::RunObserver {
   void restartPace();
   bool stands() const;
   bool isIdle() const { return paused_ || lockstep_.awaited().has_value(); }
-  const char* take(hovercraft::Command command, const std::optional<ros::Time>& stamp);
+  const char* accept(hovercraft::Command command, const std::optional<ros::Time>& stamp);
   hovercraft::Tick nextVisibleTick() const;
   bool mayMeetBefore(hovercraft::Tick tick) const;
   std::int64_t waitNs(std::int64_t now_ns) const;

@@ -25,13 +25,13 @@ namespace hovercraft_ros {
 class HOVERCRAFT_PUBLIC VehicleInterface {
  public:
   /// Receives a command, whose tick the receiver sets, and the stamp of its header if it has one;
-  /// returns null, or why it was not taken. Called from the node's callback queue only.
+  /// returns null, or why it was not accepted. Called from the node's callback queue only.
   using CommandSink =
       std::function<const char*(const hovercraft::Command&, const std::optional<ros::Time>& stamp)>;
 
   /// The node that the craft flies in.
   struct Owner {
-    CommandSink take;
+    CommandSink accept;
     /// The run stands, and publishes nothing by itself: who subscribes then is given the present
     /// state, he alone.
     std::function<bool()> stands;
@@ -55,7 +55,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   /// the node sends for all craft at once.
   void publish(MessageParts others);
   void publishApplied(const hovercraft::Command& command);
-  /// Counts a command that was taken, and warns if it is beyond the engines' limits.
+  /// Counts a command that was accepted, and warns if it is beyond the engines' limits.
   /// @param source where it came from.
   void noteSaturation(const hovercraft::Command& command, const std::string& source);
   /// Full names of the topics that nobody else may publish.
@@ -75,7 +75,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   void subscribeActuators(ros::NodeHandle& handle);
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
   /// @param rule that a message without a command breaks.
-  void take(const std::optional<hovercraft::Command>& command, const std::string& topic,
+  void receive(const std::optional<hovercraft::Command>& command, const std::string& topic,
             const std::optional<ros::Time>& stamp, const char* rule = "a thrust must be finite");
 
   const LiveRun& run_;

@@ -116,8 +116,8 @@ constexpr int kMaxRestRelaxations = 40000;
 /// Sweeps (-) that resting contacts of many points get in any case.
 constexpr int kMinRestSweeps = 30;
 
-/// Gap (-, of the contact tolerance) below which a resting contact is repaired: as long as there is
-/// more, the solver brings it back by itself.
+/// Gap (-, of the contact tolerance) below which the positions of a resting contact are corrected:
+/// as long as there is more, the solver brings it back by itself.
 constexpr double kLeastRestGap = 0.1;
 
 /// Least tolerance (-, of the size of the largest body): a tenth of it is a gap (kLeastRestGap),
@@ -129,11 +129,11 @@ constexpr double kLeastTolerance = 1e-11;
 /// 0.2 ms to 10 ms, with 2e4 some are.
 constexpr double kMostMassRatio = 1e4;
 
-/// Gap (-, of the contact tolerance) up to which a repair moves a pair.
+/// Gap (-, of the contact tolerance) up to which a correction moves a pair.
 constexpr double kFairRestGap = 0.4;
 
-/// Bound on the sweeps of a repair: the height of a stack squared, for ten bodies.
-constexpr int kMaxRepairSweeps = 100;
+/// Bound on the sweeps of a correction: the height of a stack squared, for ten bodies.
+constexpr int kMaxCorrectionSweeps = 100;
 
 /// Bounces of a pair in one step after which it is plastic: the sum of what would follow is shorter
 /// than the step (Zeno).
@@ -162,11 +162,11 @@ constexpr int kFewFaces = 32;
 
 /// Neighbours are looked for this much farther than a body's own size (-), and ten steps ahead: so
 /// seldom that the search costs nothing, so near that few of them come to nothing.
-constexpr double kRoom = 0.25;
+constexpr double kFatBoxMargin = 0.25;
 constexpr double kStepsAhead = 10.0;
 
-/// What a room is made smaller by (-, of its size): more than the roundings of its sides.
-constexpr double kRoomRounding = 1e-12;
+/// What a fat box is made smaller by (-, of its size): more than the roundings of its sides.
+constexpr double kMarginRounding = 1e-12;
 
 /// Most pairs (-) that are looked at for whether bodies may meet in the next milliseconds: some ten
 /// microseconds' worth, as much as it costs to wait for a step less.
@@ -180,23 +180,23 @@ constexpr double kLongestTurn = 0.1;
 constexpr double kLeastStepsClear = 4.0;
 constexpr int kStepsUntilClearances = 16;
 
-/// Room (m) of a body that is alone.
-constexpr double kFarRoom = 1e6;
+/// Margin (m) of the fat box of a body that is alone.
+constexpr double kFarMargin = 1e6;
 
-/// A body whose points came farther than `travel` allows is given twice what it took.
-constexpr double kTravelReserve = 2.0;
+/// A body whose points went farther than its motion bound is given twice what it took.
+constexpr double kMotionBoundReserve = 2.0;
 
-/// A bound on the travel of bodies that are near nothing is kept until it is exceeded; it begins as
-/// this times the travel (-): a craft that speeds up from 1 to 10 m/s makes six of them.
-constexpr double kTravelRoom = 1.5;
+/// A bound on the motion of bodies that are near nothing is kept until it is exceeded; it begins as
+/// this times the motion (-): a craft that speeds up from 1 to 10 m/s makes six of them.
+constexpr double kKeptBoundFactor = 1.5;
 
-/// Bound on how often a step is begun anew with more travel: each time it at least doubles.
+/// Bound on how often a step is begun anew: each time with at least twice the motion bound.
 constexpr int kMaxRestarts = 20;
 
 /// Share (-) of the wanted gap from which on a pair counts as set apart.
-constexpr double kPartedShare = 0.9;
+constexpr double kSeparatedShare = 0.9;
 
-/// Bound on the sweeps of partTouching(): the height of a stack squared, for fifty bodies.
-constexpr int kMaxPartingSweeps = 2500;
+/// Bound on the sweeps of separateTouching(): the height of a stack squared, for fifty bodies.
+constexpr int kMaxSeparationSweeps = 2500;
 
 }  // namespace hovercraft

@@ -61,20 +61,18 @@ HOVERCRAFT_PUBLIC hovercraft_sim::ActuatorCommand toActuatorCommand(
     const hovercraft::Command& command, const hovercraft::VehicleScenario& craft,
     const ros::Time& stamp);
 
-/// The command that a message asks for at `tick`; nothing if a thrust is not finite.
+/// The command that a message asks for; nothing if a thrust is not finite. Its tick is 0: when it
+/// acts is for the one who hands it to a simulation.
 [[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
-    const hovercraft_sim::ThrustCommand& message, std::size_t vehicle, hovercraft::Tick tick);
-[[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
-    double thrust, hovercraft::EngineId engine, std::size_t vehicle, hovercraft::Tick tick);
-/// For the actuator of that id, by the command of its kind.
+    const hovercraft_sim::ThrustCommand& message, std::size_t vehicle);
+/// For the engine or other actuator of that id, by the command of its kind.
 [[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(double value,
                                                                              std::size_t id,
-                                                                             std::size_t vehicle,
-                                                                             hovercraft::Tick tick);
+                                                                             std::size_t vehicle);
 /// Nothing too if a name is unknown or stands twice, or there are not as many values as names.
 [[nodiscard]] HOVERCRAFT_PUBLIC std::optional<hovercraft::Command> toCommand(
     const hovercraft_sim::ActuatorCommand& message, const hovercraft::VehicleScenario& craft,
-    std::size_t vehicle, hovercraft::Tick tick);
+    std::size_t vehicle);
 /// The command that was recorded, to be applied at its own tick.
 HOVERCRAFT_PUBLIC hovercraft::Command toCommand(const hovercraft_sim::AppliedCommand& message,
                                                 std::size_t vehicle);

@@ -50,7 +50,7 @@ struct CommandTopic {
 /// fan that of its axis.
 struct ActuatorScenario {
   std::string name;
-  ActuatorKind kind = ActuatorKind::kFan;  // which of the four
+  ActuatorKind kind = ActuatorKind::kFan;  // which
   EngineParameters motion;                 // of its level
   CommandTopic topic;                      // on which it is commanded by itself
   double initial = 0.0;                    // level, until the first command

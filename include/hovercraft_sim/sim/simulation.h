@@ -45,8 +45,8 @@ class HOVERCRAFT_PUBLIC Simulation {
   Motion motionAfterSetting(std::size_t vehicle, const Vector3& p_WB, const Quaternion& q_WB,
                             const Twist& twist) const;
 
-  /// The body that a craft would overlap there by more than the tolerance, or be squeezed against
-  /// so that no gap can be made; none without a world.
+  /// The body that a craft would overlap there by more than the tolerance, or be too close to for a
+  /// gap to be made; none without a world.
   [[nodiscard]] std::optional<WorldOverlap> overlapAt(std::size_t vehicle, const Vector3& p_WB,
                                                       const Quaternion& q_WB) const;
 

@@ -36,7 +36,7 @@ struct SimulationState {
   std::vector<BodyState> bodies;         // vehicles, then loose ones, in the scenario's order
   std::vector<EngineStates> engines;     // of each vehicle
   std::vector<ExternalWrench> wrenches;  // in the order in which they were applied
-  std::vector<ContactMemory> contacts;   // of pairs that are near, ascending
+  std::vector<ContactCache> contacts;    // of pairs that are near, ascending
   std::vector<SensorState> sensors;      // of all craft, in the order of the scenario
   std::vector<GustState> gusts;          // of each body; empty without gusts
   CommandLog commands;                   // that have not taken effect

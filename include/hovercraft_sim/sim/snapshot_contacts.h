@@ -12,6 +12,6 @@ namespace hovercraft {
 /// The key `contacts`: of pairs in the order in which a step looks for them.
 /// @param reader of a snapshot. @param world null if the scenario has none.
 /// @throws std::invalid_argument with key path and rule.
-std::vector<ContactMemory> parseContactMemories(const ConfigReader& reader, const World* world);
+std::vector<ContactCache> parseContactCaches(const ConfigReader& reader, const World* world);
 
 }  // namespace hovercraft

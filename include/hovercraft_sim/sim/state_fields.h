@@ -76,7 +76,7 @@ void visitWrench(External& external, Visit&& visit) {
   visit("end_tick", external.end_tick);
 }
 
-/// @param contact a ContactMemory: what it holds of the pair.
+/// @param contact a ContactCache: what it holds of the pair.
 template <class Contact, class Visit>
 void visitPair(Contact& contact, Visit&& visit) {
   visit("a", contact.a);

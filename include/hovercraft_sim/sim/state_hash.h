@@ -61,7 +61,7 @@ class StateHash {
 
   /// Both bodies, whether features are known, features and hints, whether it rests; number of
   /// points, then point and force of each.
-  void add(const ContactMemory& contact) {
+  void add(const ContactCache& contact) {
     visitPair(contact, *this);
     add(contact.features.known);
     visitFeatures(contact, *this);

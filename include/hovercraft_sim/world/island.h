@@ -12,7 +12,7 @@ namespace hovercraft {
 
 /// A pair of bodies of the island.
 struct IslandLink {
-  ContactMemory memory;         // what it keeps to the next step
+  ContactCache cache;           // what it keeps to the next step
   ClosestFeatures closest;      // now
   ContactManifold manifold;     // of those that touch
   ContactMaterial material;     // of the pair
@@ -61,10 +61,10 @@ class Island {
       : scene_(scene), inputs_(inputs), s_(scratch), records_(records) {}
 
   /// @param bodies and pairs of the group, ascending. @param states at the start of the step.
-  /// @param ends of the step without contact. @param memory ascending.
+  /// @param ends of the step without contact. @param contacts ascending.
   void begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
              const std::vector<BodyState>& states, const std::vector<BodyState>& ends,
-             const std::vector<ContactMemory>& memory);
+             const std::vector<ContactCache>& contacts);
   /// Runs the events of the step. @returns false if their bound cut off the rest of it.
   bool run();
 
@@ -75,23 +75,23 @@ class Island {
     double gain = 0.0;     // m/s: by how much faster the integrator ends a flight than it begins it
   };
 
-  void look(double left);
-  void turn(IslandLink& link, bool at_end);
-  bool repair();
-  bool repairSweep();
+  void updateContacts(double left);
+  void updateEntryNormal(IslandLink& link, bool at_end);
+  bool correctPositions();
+  bool correctionSweep();
   ClosestFeatures closestNow(IslandLink& link);
   bool shiftApart(const IslandLink& link, double by);
-  void strike(double now);
-  bool isStruck() const;
-  bool isStruck(const IslandLink& link) const;
+  void solveImpacts(double now);
+  bool hasImpact() const;
+  bool hasImpact(const IslandLink& link) const;
   void addImpactPoints();
   FreeStep freeStepOf(const IslandLink& link, const ImpactPoint& point) const;
   void slowBounces();
   double slowApproach() const;
-  void report(double now);
-  void press(double now);
+  void recordImpacts(double now);
+  void solveRestingContacts(double now);
   bool addRestPoints(IslandLink& link, double left);
-  void takeForces(double now, double left);
+  void applyForces(double now, double left);
   bool restsOnWhole(const IslandLink& link) const;
   double advance(double now);
   bool firstImpact(double duration, double share, double& time) const;
@@ -101,10 +101,10 @@ class Island {
   const StepMotion& motionOfIndex(std::int32_t index) const;
   void addBodies(bool at_end);
   void endFreely(IslandMember& member, double from);
-  void takeTwists();
+  void updateTwists();
   bool isTouched() const;
   void leaveEuler();
-  void leave();
+  void clearForces();
   // Velocities at the start of the piece, or at its end without contact. A slot is 0 for what is
   // fixed, else 1 + the index of the member.
   Vector3 velocityNow(std::int32_t slot, const Vector3& p_WC) const;

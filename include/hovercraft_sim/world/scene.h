@@ -12,6 +12,7 @@
 #include "hovercraft_sim/hovercraft/planar_step.h"
 #include "hovercraft_sim/hovercraft/step_inputs.h"
 #include "hovercraft_sim/math/export.h"
+#include "hovercraft_sim/math/index.h"
 #include "hovercraft_sim/world/world_types.h"
 
 namespace hovercraft {
@@ -24,19 +25,17 @@ using ScenePair = std::pair<std::int32_t, std::int32_t>;
 class Scene {
  public:
   /// What is given was checked by the scenario.
-  Scene(WorldRules rules, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles);
+  Scene(WorldConfig config, std::vector<WorldBody> bodies, std::vector<WorldObstacle> obstacles);
 
   /// How bodies meet.
-  const WorldRules& rules() const { return rules_; }
+  const WorldConfig& config() const { return config_; }
   /// Those that move, in the order of their indices.
   const std::vector<WorldBody>& bodies() const { return bodies_; }
   /// Those that never move; their indices follow on those of the bodies.
   const std::vector<WorldObstacle>& obstacles() const { return obstacles_; }
 
   /// Whether an index is that of an obstacle.
-  bool isFixed(std::int32_t index) const {
-    return static_cast<std::size_t>(index) >= bodies_.size();
-  }
+  bool isFixed(std::int32_t index) const { return at(index) >= bodies_.size(); }
   /// As in the scenario.
   HOVERCRAFT_PUBLIC const std::string& nameOf(std::int32_t index) const;
   /// In the body's frame B. Only where bodies meet.
@@ -45,24 +44,20 @@ class Scene {
   /// Pieces of one wall have the same.
   std::int32_t wholeOf(std::int32_t index) const {
     if (!isFixed(index)) return index;
-    const std::int32_t whole = obstacles_[static_cast<std::size_t>(index) - bodies_.size()].whole;
+    const std::int32_t whole = obstacles_[obstacleAt(index)].whole;
     return whole < 0 ? index : whole + static_cast<std::int32_t>(bodies_.size());
   }
   const ContactMaterial& lawOf(const ScenePair& pair) const {
-    return rules_.pair(materialOf(pair.first), materialOf(pair.second));
+    return config_.pair(materialOf(pair.first), materialOf(pair.second));
   }
-  const Mobility& mobilityOf(std::int32_t body) const {
-    return bodies_[static_cast<std::size_t>(body)].model.mobility;
-  }
+  const Mobility& mobilityOf(std::int32_t body) const { return bodies_[at(body)].model.mobility; }
   /// Velocities of a body, with its rotors as they turn at a time from the start of the step, s.
   Twist twistAt(std::int32_t body, const BodyState& state, const StepInputs& inputs,
                 double time) const;
   /// Of an obstacle.
-  const Pose& fixedPose(std::int32_t index) const {
-    return obstacles_[static_cast<std::size_t>(index) - bodies_.size()].X_WO;
-  }
+  const Pose& fixedPose(std::int32_t index) const { return obstacles_[obstacleAt(index)].X_WO; }
   const StepMotion& fixedMotion(std::int32_t index) const {
-    return obstacle_motions_[static_cast<std::size_t>(index) - bodies_.size()];
+    return obstacle_motions_[obstacleAt(index)];
   }
   const AxisAlignedBox& fixedBox(std::size_t obstacle) const { return obstacle_boxes_[obstacle]; }
   Pose poseIn(const std::vector<BodyState>& states, std::int32_t index) const;
@@ -79,33 +74,34 @@ class Scene {
 
   /// Bound on the way of a body's points along each axis of W between two states of a piece of h
   /// seconds, m: straight, curved, and turned.
-  Vector3 travelOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
+  Vector3 motionBoundOf(std::size_t body, const BodyState& from, const BodyState& to,
+                        double h) const;
 
-  /// A bound on travelOf() that needs no root, and holds for a while.
-  struct TravelBound {
+  /// A bound on motionBoundOf() that needs no root, and holds for a while.
+  struct KeptMotionBound {
     Vector3 straight = Vector3::Constant(-1.0);  // m: what it may go and bend along each axis
     double spin = 0.0;                           // (N m s)²: of its angular momentum
-    Vector3 travel = Vector3::Zero();            // m
+    Vector3 motion_bound = Vector3::Zero();      // m
   };
 
   /// A bound for steps of h seconds of a body that goes on like this one, or somewhat faster.
-  TravelBound travelBoundOf(std::size_t body, const BodyState& from, const BodyState& to,
-                            double h) const;
-  /// Whether travelOf() is within the bound, along each axis.
-  bool holds(const TravelBound& bound, std::size_t body, const BodyState& from, const BodyState& to,
-             double h) const;
+  KeptMotionBound keptBoundOf(std::size_t body, const BodyState& from, const BodyState& to,
+                              double h) const;
+  /// Whether motionBoundOf() is within the bound, along each axis.
+  bool holds(const KeptMotionBound& bound, std::size_t body, const BodyState& from,
+             const BodyState& to, double h) const;
 
   /// Radius of a body around its centre of mass, m.
   double radiusOf(std::size_t body) const { return extents_[body].radius; }
   /// A box around a body's hull, widened by a margin along each axis, m.
   AxisAlignedBox boxOf(std::size_t body, const Pose& pose, const Vector3& margin) const;
-  /// Whether a body that goes no farther along the axes of W than `travel` (m) stays on the outer
-  /// side of a face of an obstacle, by more than a resting contact. Only obstacles of few faces are
-  /// looked at (kFewFaces). @param side which.
-  bool staysOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+  /// Whether a body that goes no farther along the axes of W than `motion_bound` (m) stays on the
+  /// outer side of a face of an obstacle, by more than a resting contact. Only obstacles of few
+  /// faces are looked at (kFewFaces). @param side which.
+  bool staysOutside(std::size_t body, const Pose& pose, const Vector3& motion_bound,
                     std::int32_t obstacle, int side) const;
   /// Whether it stays on the outer side of some face. @param side written: which.
-  bool findSideOutside(std::size_t body, const Pose& pose, const Vector3& travel,
+  bool findSideOutside(std::size_t body, const Pose& pose, const Vector3& motion_bound,
                        std::int32_t obstacle, int& side) const;
 
   /// How a face of an obstacle keeps a body on its outer side.
@@ -116,7 +112,7 @@ class Scene {
     double size = 0.0;      // m, of the numbers in it
   };
   /// @param side of the obstacle.
-  Separation separationOf(std::size_t body, const Pose& pose, const Vector3& travel,
+  Separation separationOf(std::size_t body, const Pose& pose, const Vector3& motion_bound,
                           std::int32_t obstacle, int side) const;
 
   /// Closest features of a pair in these states.
@@ -130,6 +126,9 @@ class Scene {
                                                                   double by, int only) const;
 
  private:
+  /// Where an obstacle stands in their list. @param index in the scene.
+  std::size_t obstacleAt(std::int32_t index) const { return at(index) - bodies_.size(); }
+
   struct Extent {
     Vector3 center_B = Vector3::Zero();  // m, of the box around the hull
     Vector3 half_B = Vector3::Zero();
@@ -139,14 +138,14 @@ class Scene {
     Vector3 turns = Vector3::Ones();  // 0 along an axis about which alone it can turn
   };
 
-  /// What travelOf() is made from.
+  /// What motionBoundOf() is made from.
   struct Course {
     Vector3 straight;  // m, along each axis
     double spin;       // (N m s)²
   };
 
   Course courseOf(std::size_t body, const BodyState& from, const BodyState& to, double h) const;
-  Vector3 travelOf(std::size_t body, const Course& course, double h) const;
+  Vector3 motionBoundOf(std::size_t body, const Course& course, double h) const;
 
   /// normal · x <= offset inside, in W.
   struct Side {
@@ -154,16 +153,16 @@ class Scene {
     double offset;  // m
   };
 
-  bool isOutside(const Extent& extent, const Pose& pose, const Vector3& travel,
+  bool isOutside(const Extent& extent, const Pose& pose, const Vector3& motion_bound,
                  const Side& side) const;
-  double beyond(const Extent& extent, const Pose& pose, const Vector3& travel,
+  double beyond(const Extent& extent, const Pose& pose, const Vector3& motion_bound,
                 const Side& side) const;
 
   static Extent extentOf(const WorldBody& body);
   /// None of a hull of more than a few faces.
   static std::vector<Side> sidesOf(const WorldObstacle& obstacle);
 
-  WorldRules rules_;
+  WorldConfig config_;
   std::vector<WorldBody> bodies_;
   std::vector<WorldObstacle> obstacles_;
   std::vector<std::optional<PlanarCraft>> planar_;  // of each body

@@ -13,6 +13,7 @@
 #include "hovercraft_sim/contact/manifold.h"
 #include "hovercraft_sim/contact/material.h"
 #include "hovercraft_sim/hovercraft/hovercraft_model.h"
+#include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
 
@@ -21,7 +22,7 @@ struct WorldBody {
   std::string name;                      // as in the scenario
   HovercraftModel model;                 // mass, forces, mobility
   std::optional<ConvexPolyhedron> hull;  // in B; none where bodies do not meet
-  int material = 0;                      // index into WorldRules
+  int material = 0;                      // index into WorldConfig
 };
 
 /// A body that never moves.
@@ -34,7 +35,7 @@ struct WorldObstacle {
 };
 
 /// How bodies meet.
-struct WorldRules {
+struct WorldConfig {
   Integrator integrator = Integrator::kHeun;  // of all bodies
   double step = 0.0;                          // s
   bool bodies_meet = true;                    // else they pass through each other
@@ -44,14 +45,12 @@ struct WorldRules {
   std::vector<ContactMaterial> pairs = {{}};  // material_count rows and columns, symmetric
 
   /// The law of two materials, by their indices.
-  const ContactMaterial& pair(int a, int b) const {
-    return pairs[static_cast<std::size_t>(a) * material_count + static_cast<std::size_t>(b)];
-  }
+  const ContactMaterial& pair(int a, int b) const { return pairs[at(a) * material_count + at(b)]; }
 };
 
 /// What a pair that is near keeps from step to step; it determines the future, as the solver starts
 /// from it. Bodies by index: the moving ones first, then the obstacles.
-struct ContactMemory {
+struct ContactCache {
   std::int32_t a = 0;    // a < b
   std::int32_t b = 0;    // likewise
   FeaturePair features;  // where the search for the closest ones begins
