@@ -68,7 +68,7 @@ const std::map<std::string, Rule>& rules() {
       {"bags", {core + Names{"messages"}, of_ros}},
       {"view", {core + Names{"messages"}, of_ros}},
       {"live", {core + Names{"messages", "view"}, of_ros + Names{"unistd.h", "XmlRpcClient.h"}}},
-      {"clients", {core + Names{"messages", "bags"}, of_ros + Names{"unistd.h"}}},
+      {"clients", {core + Names{"messages", "bags"}, of_ros + Names{"unistd.h", "XmlRpcClient.h"}}},
       {"report", {core + Names{"messages", "bags", "view"}, of_ros + Names{"zlib.h"}}},
       {"web",
        {core + Names{"messages", "bags", "view", "report"},
