@@ -1,5 +1,6 @@
 #include "hovercraft_sim/collision/motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hovercraft_sim/math/demand.h"
@@ -66,10 +67,25 @@ AxisAlignedBox boxAt(const ConvexPolyhedron& body, const Pose& X_WB) {
 }  // namespace
 
 Pose StepMotion::at(double t) const {
-  const Vector3 half = (0.5 * t) * w_WB;
+  const Vector3 half = (0.5 * t) * (w_WB + (0.5 * t) * alpha_WB);
   const Turn half_turn = turn(norm(half));
   const Quaternion turned = Quaternion{half_turn.cosine, half_turn.sine_over_angle * half} * q_WB;
   return {rotationMatrix(normalized(turned)), p_WB + t * (v_WB + (0.5 * t) * a_WB)};
+}
+
+Vector3 StepMotion::fastestTurn(double duration) const {
+  const Vector3 w_end = angularVelocity(duration);
+  return squaredNorm(w_end) > squaredNorm(w_WB) ? w_end : w_WB;
+}
+
+void StepMotion::bend(const Vector3& dv_WB, const Vector3& dw_WB, double duration) {
+  a_WB = dv_WB / duration;
+  v_WB -= (0.5 * duration) * a_WB;
+  const Vector3& axis = squaredNorm(w_WB) > 0.0 ? w_WB : dw_WB;
+  const double squared = squaredNorm(axis);
+  if (!(squared > 0.0)) return;
+  alpha_WB = (dot(axis, dw_WB) / (squared * duration)) * axis;
+  w_WB -= (0.5 * duration) * alpha_WB;
 }
 
 StepMotion motionBetween(const Vector3& p_start, const Quaternion& q_start, const Vector3& p_end,
@@ -94,11 +110,12 @@ AxisAlignedBox sweptBox(const ConvexPolyhedron& body, const StepMotion& motion, 
   const FloatingPointEnvironment environment;
   const AxisAlignedBox start = boxAt(body, motion.at(0.0));
   const AxisAlignedBox end = boxAt(body, motion.at(duration));
-  // |x''| <= |a| + |w|² r; a chord of length T in t is left by at most |x''| T²/8. On long turns
-  // the diameter is the better bound.
+  // |x''| <= |a| + (|w|² + |alpha|) r; a chord of length T in t is left by at most |x''| T²/8. On
+  // long turns the diameter is the better bound.
   const double r = body.data().radius;
+  const double spin = norm(motion.fastestTurn(duration));
   const double turning =
-      std::min(2.0 * r, dot(motion.w_WB, motion.w_WB) * r * duration * duration / 8.0);
+      std::min(2.0 * r, (spin * spin + norm(motion.alpha_WB)) * r * duration * duration / 8.0);
   const double width = turning + norm(motion.a_WB) * duration * duration / 8.0;
   const double rounding = 1e-14 * (r + norm(motion.p_WB) + norm(motion.v_WB) * duration);
   const Vector3 margin = Vector3::Constant(width + rounding);

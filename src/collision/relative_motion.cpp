@@ -17,11 +17,17 @@ double earliestZero(double gap, double speed, double curvature) {
   return curvature > 0.0 ? (root - speed) / curvature : kNever;
 }
 
+RelativeMotion::Side RelativeMotion::sideOf(const ConvexPolyhedron& body, const StepMotion& motion,
+                                            double duration) {
+  const Vector3 fastest = motion.fastestTurn(duration);
+  return {body, motion, fastest, norm(fastest), norm(motion.alpha_WB)};
+}
+
 RelativeMotion::RelativeMotion(const ConvexPolyhedron& A, const StepMotion& motion_A,
                                const ConvexPolyhedron& B, const StepMotion& motion_B,
                                double duration)
-    : side_A_{A, motion_A, norm(motion_A.w_WB)},
-      side_B_{B, motion_B, norm(motion_B.w_WB)},
+    : side_A_(sideOf(A, motion_A, duration)),
+      side_B_(sideOf(B, motion_B, duration)),
       motion_A_(motion_A),
       motion_B_(motion_B),
       radius_A_(A.data().radius),
@@ -29,29 +35,36 @@ RelativeMotion::RelativeMotion(const ConvexPolyhedron& A, const StepMotion& moti
       acceleration_(norm(motion_B.a_WB - motion_A.a_WB)),
       spin_A_(side_A_.spin),
       spin_B_(side_B_.spin),
-      spin_(norm(motion_B.w_WB - motion_A.w_WB)),
+      // That of the ends is the greatest, as it is linear in time.
+      spin_(
+          std::max(norm(motion_B.w_WB - motion_A.w_WB),
+                   norm(motion_B.angularVelocity(duration) - motion_A.angularVelocity(duration)))),
+      spin_up_(norm(motion_B.alpha_WB - motion_A.alpha_WB)),
       speed_(norm(motion_B.v_WB - motion_A.v_WB) + acceleration_ * duration),
       reach_(norm(motion_B.p_WB - motion_A.p_WB) + speed_ * duration),
       duration_(duration) {}
 
+/// Bound on the acceleration of a body's points along n by its turn, m/s²:
+/// n · (alpha × r + w × (w × r)) = (n × alpha) · r + (n × w) · (w × r), where w keeps its axis.
+double RelativeMotion::curvatureAcross(const Side& side, const Vector3& n) const {
+  const double radius = side.body.data().radius;
+  const double across = norm(cross(side.fastest, n));
+  return (across * side.spin + norm(cross(side.motion.alpha_WB, n))) * radius;
+}
+
 /// A plane across n, fixed in W, in A or in B, stays between the bodies for at least this long.
 double RelativeMotion::clearTimeAnywhere(double gap, const Instant& now) const {
-  const Vector3 w = motion_B_.w_WB - motion_A_.w_WB;
-  const double across = norm(cross(w, now.n));
-  const double across_A = norm(cross(motion_A_.w_WB, now.n));
-  const double across_B = norm(cross(motion_B_.w_WB, now.n));
+  const double across = norm(cross(now.w_B - now.w_A, now.n));
+  const double across_A = norm(cross(now.w_A, now.n));
+  const double across_B = norm(cross(now.w_B, now.n));
   const double in_W = now.closing + across_A * radius_A_ + across_B * radius_B_;
-  const double in_A =
-      now.closing + dot(now.n, cross(motion_A_.w_WB, now.from_A_B)) + across * radius_B_;
-  const double in_B =
-      now.closing + dot(now.n, cross(motion_B_.w_WB, now.from_A_B)) + across * radius_A_;
-  // n · (w × (w × r)) = (n × w) · (w × r)
+  const double in_A = now.closing + dot(now.n, cross(now.w_A, now.from_A_B)) + across * radius_B_;
+  const double in_B = now.closing + dot(now.n, cross(now.w_B, now.from_A_B)) + across * radius_A_;
   const double curvature_W = std::max(0.0, dot(now.n, Vector3(motion_A_.a_WB - motion_B_.a_WB))) +
-                             across_A * spin_A_ * radius_A_ + across_B * spin_B_ * radius_B_;
-  return std::max(
-      earliestZero(gap, in_W, curvature_W),
-      std::max(earliestZero(gap, in_A, turningAcceleration(spin_A_, spin_B_, radius_B_)),
-               earliestZero(gap, in_B, turningAcceleration(spin_B_, spin_A_, radius_A_))));
+                             curvatureAcross(side_A_, now.n) + curvatureAcross(side_B_, now.n);
+  return std::max(earliestZero(gap, in_W, curvature_W),
+                  std::max(earliestZero(gap, in_A, turningAcceleration(side_A_, side_B_)),
+                           earliestZero(gap, in_B, turningAcceleration(side_B_, side_A_))));
 }
 
 /// Speed at which the witness points, fixed to their bodies, approach along n.
@@ -62,7 +75,7 @@ double RelativeMotion::closingOfWitnesses(const ClosestFeatures& now, double t,
   const Vector3 r_B =
       now.p_WCb - (motion_B_.p_WB + t * (motion_B_.v_WB + (0.5 * t) * motion_B_.a_WB));
   return instant.closing +
-         dot(instant.n, Vector3(cross(motion_A_.w_WB, r_A) - cross(motion_B_.w_WB, r_B)));
+         dot(instant.n, Vector3(cross(instant.w_A, r_A) - cross(instant.w_B, r_B)));
 }
 
 /// While the face's normal stays in the cone of the vertex, the gap is the height of this vertex
@@ -71,26 +84,26 @@ double RelativeMotion::clearTimeOfVertexFace(const ClosestFeatures& now, double 
                                              const Instant& instant) const {
   const double in_cone = spin_ > 0.0 ? -now.excess / spin_ : kNever;
   const bool face_A = now.feature_a.kind == FeatureKind::kFace;
-  const double curvature = face_A ? turningAcceleration(spin_A_, spin_B_, radius_B_)
-                                  : turningAcceleration(spin_B_, spin_A_, radius_A_);
+  const double curvature =
+      face_A ? turningAcceleration(side_A_, side_B_) : turningAcceleration(side_B_, side_A_);
   return std::min(in_cone,
                   earliestZero(now.distance, closingOfWitnesses(now, t, instant), curvature));
 }
 
 /// While the common normal of the edges' lines stays in the cones of both, the gap is the distance
 /// of the lines, g / s with g = w · (e_A × e_B) and s the sine of their angle. In the axes of A:
-/// |N'| <= w, |N''| <= w² + w_A w_B for N = e_A × e_B, and s stays above half of what it is now for
-/// as long as the cones allow.
+/// |N'| <= w, |N''| <= w² + w_A w_B + |alpha| for N = e_A × e_B, and s stays above half of what it
+/// is now for as long as the cones allow.
 double RelativeMotion::clearTimeOfEdges(const ClosestFeatures& now, double t, double sine,
                                         const Instant& instant) const {
   const double s = 0.5 * sine;
   const double in_cone = spin_ > 0.0 ? std::min(1.0, -now.excess) * s / spin_ : kNever;
-  const double second = spin_ * spin_ + spin_A_ * spin_B_;
+  const double second = spin_ * spin_ + spin_A_ * spin_B_ + spin_up_;
   const double size = reach_ + radius_A_ + radius_B_;
   const double speed = speed_ + spin_B_ * radius_B_ + spin_A_ * (reach_ + radius_B_);
   const double g_first = speed + size * spin_;
   const double g_second =
-      turningAcceleration(spin_A_, spin_B_, radius_B_) + 2.0 * speed * spin_ + size * second;
+      turningAcceleration(side_A_, side_B_) + 2.0 * speed * spin_ + size * second;
   const double s_second = second + spin_ * spin_ / s;
   const double curvature = g_second / s + 2.0 * g_first * spin_ / (s * s) +
                            size * s_second / (s * s) + 2.0 * size * spin_ * spin_ / (s * s * s);
@@ -98,29 +111,41 @@ double RelativeMotion::clearTimeOfEdges(const ClosestFeatures& now, double t, do
                   earliestZero(now.distance, closingOfWitnesses(now, t, instant), curvature));
 }
 
-/// For how long a vertex stays the lowest of its body over a face that moves too. The slope m · e
-/// of each of its edges e falls at -m · (w × e) now, w the velocity of the turn of one body against
-/// the other; |w × e| grows no faster than by Grönwall's bound, and exp(x) <= 1 + 2 x up to 1. An
-/// edge along the axis of the turn keeps its slope: that is what holds in the planar model, where
-/// upright edges are level with faces for ever.
+/// Bound on the second derivative, 1/s², of the slope of an edge e over a face that moves too:
+/// |w' × e| + |w × (w × e)|, w the velocity of the turn of one body against the other. |w × e|
+/// grows no faster than by Grönwall's bound, and exp(x) <= 1 + 2 x up to 1. An edge along the one
+/// axis of all turns keeps its slope: that is what holds in the planar model, where upright edges
+/// are level with faces for ever.
+double RelativeMotion::slopeCurvature(const Side& face_side, const Side& other, const Vector3& e,
+                                      double swept) const {
+  const double wobble = norm(cross(face_side.fastest, other.fastest));
+  if (spin_up_ > 0.0) {
+    if (wobble > 0.0) return wobble + spin_up_ + spin_ * spin_;
+    const Side& turning = other.spin > face_side.spin ? other : face_side;
+    return (spin_up_ + spin_ * spin_) * (norm(cross(turning.fastest, e)) / turning.spin);
+  }
+  const double angle = spin_ * duration_;
+  const double fastest =
+      angle > 1.0 ? spin_ : std::min(spin_, (1.0 + 2.0 * angle) * (swept + wobble * duration_));
+  return wobble + spin_ * fastest;
+}
+
+/// For how long a vertex stays the lowest of its body over a face that moves too: until the slope
+/// m · e of one of its edges e, which falls at -m · (w × e) now, is 0.
 double RelativeMotion::timeLowest(const Side& face_side, const Side& other, const Vector3& up,
-                                  const Pose& X_WV, int vertex) const {
+                                  const Pose& X_WV, int vertex, double t) const {
   const PolyhedronData& data = other.body.data();
   const auto& corner = data.vertices[static_cast<std::size_t>(vertex)];
   if (corner.fan_count > PolyhedronData::kLongLoop) return 0.0;
-  const Vector3 w = other.motion.w_WB - face_side.motion.w_WB;
-  const double wobble = norm(cross(face_side.motion.w_WB, other.motion.w_WB));
-  const double angle = spin_ * duration_;
+  const Vector3 w = other.motion.angularVelocity(t) - face_side.motion.angularVelocity(t);
   double least = kNever;
   for (std::int32_t i = corner.fan_begin; i < corner.fan_begin + corner.fan_count; ++i) {
     const Vector3 e = times(X_WV.R_AB, data.fan[static_cast<std::size_t>(i)].direction);
     const Vector3 swept = cross(w, e);
-    const double fastest =
-        angle > 1.0 ? spin_
-                    : std::min(spin_, (1.0 + 2.0 * angle) * (norm(swept) + wobble * duration_));
     const double slope = dot(up, e);
     if (slope < 0.0) return 0.0;
-    least = std::min(least, earliestZero(slope, -dot(up, swept), wobble + spin_ * fastest));
+    least = std::min(least, earliestZero(slope, -dot(up, swept),
+                                         slopeCurvature(face_side, other, e, norm(swept))));
   }
   return least;
 }
@@ -138,12 +163,12 @@ double RelativeMotion::clearTimeOverFace(const Side& face_side, int face, const 
   const double gap = dot(up, Vector3(p - X_WF.p_AB)) - plane.offset - instant.margin;
   if (!(gap > 0.0)) return 0.0;
   const auto velocity = [&](const Side& side, const Pose& X_WB) -> Vector3 {
-    return (side.motion.v_WB + t * side.motion.a_WB) + cross(side.motion.w_WB, p - X_WB.p_AB);
+    return (side.motion.v_WB + t * side.motion.a_WB) +
+           cross(side.motion.angularVelocity(t), p - X_WB.p_AB);
   };
   const double closing = dot(up, Vector3(velocity(face_side, X_WF) - velocity(other, X_WV)));
-  const double curvature =
-      turningAcceleration(face_side.spin, other.spin, other.body.data().radius);
-  return std::min(timeLowest(face_side, other, up, X_WV, vertex),
+  const double curvature = turningAcceleration(face_side, other);
+  return std::min(timeLowest(face_side, other, up, X_WV, vertex, t),
                   earliestZero(gap, closing, curvature));
 }
 
@@ -194,6 +219,8 @@ double RelativeMotion::clearTime(const ClosestFeatures& closest, double t, doubl
       (motion_B_.v_WB - motion_A_.v_WB) + t * (motion_B_.a_WB - motion_A_.a_WB),
       (motion_B_.p_WB - motion_A_.p_WB) +
           t * ((motion_B_.v_WB - motion_A_.v_WB) + (0.5 * t) * (motion_B_.a_WB - motion_A_.a_WB)),
+      motion_A_.angularVelocity(t),
+      motion_B_.angularVelocity(t),
       0.0,
       t,
       margin};

@@ -159,15 +159,16 @@ VertexImpact vertexPlaneImpact(const Vector3& p_B, const StepMotion& motion, con
                                const ImpactSearch& search) {
   const FloatingPointEnvironment environment;
   check(search);
-  const double spin = norm(motion.w_WB);
-  const double curvature = norm(motion.a_WB) + spin * spin * norm(p_B);
+  const double spin = norm(motion.fastestTurn(search.duration));
+  const double curvature = norm(motion.a_WB) + (spin * spin + norm(motion.alpha_WB)) * norm(p_B);
   int evaluations = 0;
   double rate = 0.0;
   const auto gap_at = [&](double t) {
     ++evaluations;
     const Pose X_WB = motion.at(t);
     const Vector3 r = times(X_WB.R_AB, p_B);
-    rate = dot(plane.normal, Vector3(motion.v_WB + t * motion.a_WB + cross(motion.w_WB, r)));
+    rate = dot(plane.normal,
+               Vector3(motion.v_WB + t * motion.a_WB + cross(motion.angularVelocity(t), r)));
     return dot(plane.normal, Vector3(X_WB.p_AB + r)) - plane.offset;
   };
   double gap = gap_at(0.0);

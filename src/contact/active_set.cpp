@@ -156,6 +156,15 @@ bool ContactSolver::solveActiveSet(double tolerance) {
   return false;
 }
 
+/// What an active set leaves of the velocities that its points stop, m/s.
+double ContactSolver::roundingOfActiveSets() const {
+  double fastest = 0.0;
+  for (const Point& point : points_) {
+    fastest = std::max(fastest, point.lambda.x() * point.inverse_mass.x());
+  }
+  return kActiveSetRounding * fastest;
+}
+
 /// Solves an active set when it is time, or undoes one that was worth nothing. @param left m/s,
 /// what the last sweep changed. @returns whether it did either.
 bool ContactSolver::activeSetOrUndo(ActiveSets& sets, double left, int sweeps, double above) {

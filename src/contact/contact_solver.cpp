@@ -225,13 +225,13 @@ int ContactSolver::solve(const Limits& limits) {
   sets.are_tried = canSolveActiveSet();
   for (int sweeps = 1;; ++sweeps) {
     const Change change = sweep();
-    const double tolerance =
-        sets.are_tried ? std::min(limits.tolerance, limits.active_set_above) : limits.tolerance;
+    const double above = std::max(limits.active_set_above, roundingOfActiveSets());
+    const double tolerance = sets.are_tried ? std::min(limits.tolerance, above) : limits.tolerance;
     const bool solved = change.largest <= tolerance &&
                         (sweeps >= limits.least_sweeps || change.largest <= kNoChange);
     // After a sweep that changed nothing all that follow change nothing.
     if (solved || sweeps >= limits.sweeps || !change.any) return sweeps;
-    if (activeSetOrUndo(sets, change.largest, sweeps, limits.active_set_above)) {
+    if (activeSetOrUndo(sets, change.largest, sweeps, above)) {
       last_energy = 0.0;
       continue;
     }

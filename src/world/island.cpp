@@ -55,8 +55,8 @@ const StepMotion& Island::motionOfIndex(std::int32_t index) const {
 
 /// The approach that a pair may have and still not bounce, m/s.
 double Island::restSpeed(const IslandLink& link) const {
-  const bool is_spent = link.impacts >= kMaxBounces && link.material.restitution < 1.0;
-  if (plastic_ || is_spent) return std::numeric_limits<double>::infinity();
+  const bool is_spent = plastic_ || link.impacts >= kMaxBounces;
+  if (is_spent && link.material.restitution < 1.0) return std::numeric_limits<double>::infinity();
   if (link.cache.resting) {
     return std::max(scene_.config().rest_speed,
                     kRestGap * scene_.config().tolerance / scene_.config().step);
@@ -186,16 +186,16 @@ double Island::advance(double now) {
     const double duration = to - now;
     if (!(duration > 0.0)) return now;
     for (IslandMember& member : s_.members) {
-      const Mobility& mobility = scene_.mobilityOf(member.index);
+      const StepInputs& inputs = inputs_[at(member.index)];
       member.end = moved(member, now, to, member.contact);
       member.ends_freely = false;
       StepMotion& motion = member.motion;
       const Vector3& p_end = positionOf(member.end);
       motion = motionBetween(member.pose.p_AB, orientationOf(member.state), p_end,
                              orientationOf(member.end), duration);
-      motion.a_WB =
-          (velocityOf(member.end, mobility) - velocityOf(member.state, mobility)) / duration;
-      motion.v_WB -= (0.5 * duration) * motion.a_WB;
+      const Twist before = scene_.twistAt(member.index, member.state, inputs, now);
+      const Twist after = scene_.twistAt(member.index, member.end, inputs, to);
+      motion.bend(after.v_WB - before.v_WB, after.w_WB - before.w_WB, duration);
     }
     double time = duration;
     if (!firstImpact(duration, share, time)) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "hovercraft_sim/collision/motion.h"
@@ -20,6 +22,38 @@ TEST(StepMotion, TurnsAtConstantAngularVelocity) {
     EXPECT_LT((motion.at(0.25).R_AB - expected).cwiseAbs().maxCoeff(), 1e-15 * (1.0 + 4.0 * angle))
         << angle;
   }
+}
+
+TEST(StepMotion, TurnsFasterAtConstantAngularAcceleration) {
+  StepMotion motion;
+  motion.w_WB = Vector3(0.0, 0.0, 2.0);
+  motion.alpha_WB = Vector3(0.0, 0.0, -12.0);
+  // 2 t - 6 t²: back where it was after a third of a second, then on.
+  EXPECT_LT((motion.at(1.0 / 3.0).R_AB - Matrix3::Identity()).cwiseAbs().maxCoeff(), 1e-15);
+  const Matrix3 expected = rotationMatrix(quaternionFromAxisAngle(Vector3::UnitZ(), -4.0));
+  EXPECT_LT((motion.at(1.0).R_AB - expected).cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_EQ(motion.angularVelocity(1.0), Vector3(0.0, 0.0, -10.0));
+  EXPECT_EQ(motion.fastestTurn(1.0), Vector3(0.0, 0.0, -10.0));
+  EXPECT_EQ(motion.fastestTurn(0.25), Vector3(0.0, 0.0, 2.0));
+}
+
+TEST(StepMotion, BentKeepsItsEndsAndGetsTheirVelocities) {
+  StepMotion motion = motionBetween(Vector3(1, 2, 3), {}, Vector3(2, 2, 2),
+                                    quaternionFromAxisAngle(Vector3::UnitX(), 0.5), 0.5);
+  // Of the turn only what lies along its axis.
+  motion.bend(Vector3(0, 4, 0), Vector3(3, 1, 0), 0.5);
+  EXPECT_LT(norm(motion.at(0.5).p_AB - Vector3(2, 2, 2)), 1e-15);
+  const Matrix3 end = rotationMatrix(quaternionFromAxisAngle(Vector3::UnitX(), 0.5));
+  EXPECT_LT((motion.at(0.5).R_AB - end).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LT(norm(motion.v_WB + 0.5 * motion.a_WB - (motion.v_WB + Vector3(0, 4, 0))), 1e-15);
+  EXPECT_LT(norm(motion.w_WB - Vector3(-0.5, 0, 0)), 1e-14);
+  EXPECT_LT(norm(motion.angularVelocity(0.5) - Vector3(2.5, 0, 0)), 1e-14);
+  // What ends as it began has turned to and fro.
+  StepMotion back = motionBetween(Vector3::Zero(), {}, Vector3::Zero(), {}, 0.5);
+  back.bend(Vector3::Zero(), Vector3(0, 0, 2), 0.5);
+  EXPECT_EQ(back.w_WB, Vector3(0, 0, -1));
+  EXPECT_EQ(back.at(0.5).R_AB, Matrix3::Identity());
+  EXPECT_NEAR(back.at(0.25).R_AB(1, 0), -std::sin(0.125), 1e-15);
 }
 
 TEST(StepMotion, FallsOnAParabola) {
@@ -57,6 +91,7 @@ TEST(SweptBox, HoldsEveryVertexAtEveryTime) {
     motion.v_WB = 5.0 * random.unitVector();
     motion.a_WB = 20.0 * random.unitVector();
     motion.w_WB = random.uniform(0.0, 10.0) * random.unitVector();
+    motion.alpha_WB = random.uniform(-4.0, 4.0) * motion.w_WB;
     const AxisAlignedBox box = sweptBox(body, motion, 0.5);
     for (int k = 0; k <= 50; ++k) {
       const Pose X_WB = motion.at(0.01 * k);

@@ -125,6 +125,10 @@ struct FacingBoxes {
     motion_B.w_WB = std::pow(10.0, random.uniform(-4.0, 1.0)) * random.unitVector();
     motion_B.v_WB = std::pow(10.0, random.uniform(-5.0, 0.0)) * random.unitVector();
     motion_B.a_WB = 10.0 * random.unitVector();
+    // About an axis of their own, or both about one: then level edges stay level.
+    if (random.uniform(0.0, 1.0) < 0.5) motion_A.w_WB = random.uniform(-1.0, 1.0) * motion_B.w_WB;
+    motion_A.alpha_WB = std::pow(10.0, random.uniform(-1.0, 3.0)) * motion_A.w_WB;
+    motion_B.alpha_WB = -std::pow(10.0, random.uniform(-1.0, 3.0)) * motion_B.w_WB;
     FeaturePair fresh;
     const ClosestFeatures start = closestFeatures(A, motion_A.at(0.0), A, motion_B.at(0.0), fresh);
     const double gap = std::pow(10.0, random.uniform(-6.0, -3.0));
@@ -187,6 +191,8 @@ TEST(TimeOfImpact, IsNeverLateAndBothMethodsAgree) {
                                  random.uniform(0, 1.5) * random.unitVector());
     motion_B.q_WB = random.orientation();
     motion_B.a_WB = 0.5 * random.unitVector();
+    motion_A.alpha_WB = random.uniform(-2.0, 2.0) * motion_A.w_WB;
+    motion_B.alpha_WB = random.uniform(-2.0, 2.0) * motion_B.w_WB;
     const TimeOfImpact fast = timeOfImpact(A, motion_A, B, motion_B, {1.0, 1e-6});
     const TimeOfImpact slow =
         timeOfImpact(A, motion_A, B, motion_B, {1.0, 1e-6, ImpactMethod::kBisection});
@@ -222,6 +228,25 @@ ConvexPolyhedron flatPyramid() {
 
 // The pyramid stands on its apex over a plate and falls to its long side: its slope over the plate
 // is a hundred times as steep in the one direction as in the other.
+// Its rate after t is 1 - 8 t: it would pass the plane after 0.2 rad, turns back after 1/16 rad and
+// never does.
+TEST(TimeOfImpact, AVertexThatTurnsBackInTimeHitsNothing) {
+  for (const ImpactMethod method : kMethods) {
+    StepMotion motion = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(1, 0, 0));
+    motion.alpha_WB = Vector3(-8, 0, 0);
+    const Plane plane = {Vector3(0, 0, -1), -std::sin(0.2)};
+    const VertexImpact miss =
+        vertexPlaneImpact(Vector3(0, 1, 0), motion, plane, {0.2, 1e-9, method});
+    EXPECT_EQ(miss.status, ImpactStatus::kNone);
+    motion.alpha_WB = Vector3(8, 0, 0);
+    const VertexImpact hit =
+        vertexPlaneImpact(Vector3(0, 1, 0), motion, plane, {0.2, 1e-9, method});
+    ASSERT_EQ(hit.status, ImpactStatus::kImpact);
+    // t + 4 t² = 0.2
+    EXPECT_NEAR(hit.time, (std::sqrt(1.0 + 16.0 * 0.2) - 1.0) / 8.0, 1e-8);
+  }
+}
+
 TEST(TimeOfImpact, AnApexOfManyEdgesIsNoReasonToComeLate) {
   const ConvexPolyhedron plate = boxPolyhedron(Vector3(60, 60, 1));
   const ConvexPolyhedron pyramid = flatPyramid();
@@ -243,6 +268,7 @@ StepMotion randomApproach(RandomBodies& random, double reach) {
                              random.uniform(0, 3) * random.unitVector());
   motion.q_WB = random.orientation();
   motion.a_WB = reach * random.unitVector();
+  motion.alpha_WB = random.uniform(-2.0, 2.0) * motion.w_WB;
   return motion;
 }
 

@@ -19,14 +19,14 @@ class TestWorld {
  public:
   Vector3 gravity = Vector3::Zero();
   bool planar = false;
-  WorldConfig rules;
+  WorldConfig config;
 
   TestWorld() {
-    rules.step = 0.001;
-    rules.integrator = Integrator::kRungeKutta4;
+    config.step = 0.001;
+    config.integrator = Integrator::kRungeKutta4;
   }
 
-  ContactMaterial& material() { return rules.pairs[0]; }
+  ContactMaterial& material() { return config.pairs[0]; }
 
   std::size_t addBox(double mass, const Vector3& size, const Vector3& p_WB, const Twist& twist,
                      const Vector3& rpy = Vector3::Zero()) {
@@ -67,7 +67,7 @@ class TestWorld {
 
   World& world() {
     if (worlds_.empty()) {
-      worlds_.emplace_back(rules, bodies_, obstacles_);
+      worlds_.emplace_back(config, bodies_, obstacles_);
       worlds_.back().separateTouching(states);
       inputs.resize(states.size());
     }

@@ -25,9 +25,9 @@ struct Drop {
 };
 
 void lay(TestWorld& world, const Drop& drop) {
-  world.rules.integrator = drop.integrator;
-  world.rules.step = drop.step;
-  world.rules.rest_speed = drop.rest_speed;
+  world.config.integrator = drop.integrator;
+  world.config.step = drop.step;
+  world.config.rest_speed = drop.rest_speed;
   world.material() = {drop.restitution, drop.friction, false};
   world.gravity = Vector3(0.0, 0.0, -drop.gravity);
   world.addWall(Vector3(20.0, 20.0, 1.0), Vector3(0.0, 0.0, -0.5));
@@ -146,7 +146,7 @@ void expectRestOfTilted(const Drop& drop, const Vector3& rpy, std::size_t most =
   TestWorld laid;
   lay(laid, drop);
   TestWorld tilted;
-  tilted.rules = laid.rules;
+  tilted.config = laid.config;
   tilted.gravity = laid.gravity;
   tilted.addWall(Vector3(20.0, 20.0, 1.0), Vector3(0.0, 0.0, -0.5));
   tilted.addBox(5.0, Vector3(0.6, 0.4, 0.12), Vector3(0.0, 0.0, 0.5), atRest(), rpy);
@@ -158,6 +158,24 @@ void expectRestOfTilted(const Drop& drop, const Vector3& rpy, std::size_t most =
     EXPECT_LT(norm(tilted.twist(0).v_WB), 1e-6);
   }
   EXPECT_LE(tilted.world().stalls(), most_cut_off);
+}
+
+// Two bodies of 10,000 to 1 and a wall, e = 1, count the digits of pi: 314 impacts, up to some
+// hundred in a step of 1 ms. They came to be plastic there, and kept a hundredth of the energy.
+TEST(Rest, NeverComesToALightBodyBetweenAHeavyOneAndAWallWhereNothingIsLost) {
+  TestWorld world;
+  world.planar = true;
+  world.watch = false;
+  world.material() = {1.0, 0.0, false};
+  world.addWall(Vector3(0.2, 2.0, 1.0), Vector3(-0.1, 0.0, 0.0));
+  const Vector3 size = Vector3::Constant(0.2);
+  world.addBox(100.0, size, Vector3(0.8, 0.0, 0.0), {Vector3(-1.0, 0.0, 0.0), Vector3::Zero()});
+  world.addBox(0.01, size, Vector3(0.3, 0.0, 0.0), atRest());
+  world.step(2000);
+  EXPECT_EQ(world.records.size(), 314U);
+  EXPECT_EQ(world.world().stalls(), 0);
+  EXPECT_NEAR((world.energy(0) + world.energy(1)) / 50.0, 1.0, 1e-10);
+  EXPECT_NEAR(world.twist(0).v_WB.x(), 1.0, 1e-4);
 }
 
 // Corner after corner: a box that lands tilted comes to rest too.
@@ -184,7 +202,10 @@ TEST(Rest, ComesToATiltedBoxWhateverTheIntegrator) {
           const double mu[] = {0.5, 0.0, 1.0};
           const bool is_long = step > 0.01;
           expectRestOfTilted({integrator, step, 0.0, e, mu[turn % 3], 9.81, rest_speed},
-                             tilts[turn % 5], is_long ? 1000 : 400, is_long ? 100 : 0);
+                             tilts[turn % 5], is_long ? 1000 : 400,
+                             is_long        ? 100
+                             : step > 0.005 ? 2
+                                            : 0);
           ++turn;
         }
       }
@@ -200,7 +221,7 @@ TEST(Rest, APlasticEdgeIsNotPushedWhereItLiftsOff) {
   const double h = 1e-3;
   const double tilt = 0.3;
   TestWorld world;
-  world.rules.step = h;
+  world.config.step = h;
   world.gravity = Vector3(0.0, 0.0, -9.81);
   world.addWall(Vector3(20.0, 20.0, 1.0), Vector3(0.0, 0.0, -0.5));
   world.addBox(1.0, Vector3::Ones(), Vector3(0.0, 0.0, 1.2),

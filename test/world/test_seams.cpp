@@ -31,7 +31,7 @@ struct SlideCase {
 Slide slideAlong(const SlideCase& run, int pieces) {
   TestWorld world;
   world.planar = run.planar;
-  world.rules.step = run.step;
+  world.config.step = run.step;
   world.material() = run.law;
   const double length = 4.0 / pieces;
   for (int i = 0; i < pieces; ++i) {

@@ -61,7 +61,7 @@ TEST(World, ABoxBouncesAtTheTimeAndWithTheSpeedOfTheClosedForm) {
 
 TEST(World, TenStackedBoxesStandForAMinute) {
   TestWorld world;
-  world.rules.step = 0.004;
+  world.config.step = 0.004;
   world.material() = {0.0, 0.5, false};
   addFloor(world);
   for (int i = 0; i < 10; ++i) {
@@ -125,7 +125,7 @@ TEST(World, ABallComesToRestAfterABoundedNumberOfImpacts) {
 
 TEST(World, ElasticBouncesInAPenKeepTheEnergy) {
   TestWorld world;
-  world.rules.step = 0.0005;
+  world.config.step = 0.0005;
   world.material() = {1.0, 0.0, false};
   world.addPen(Vector3(1.0, 1.2, 1.4));
   world.addBox(1.0, Vector3(0.2, 0.3, 0.4), Vector3::Zero(),
@@ -141,7 +141,7 @@ TEST(World, ElasticBouncesInAPenKeepTheEnergy) {
 TEST(World, ABoxFallsOnOneOfATenThousandthOfItsMass) {
   TestWorld world;
   world.gravity = Vector3(0.0, 0.0, -9.81);
-  world.rules.integrator = Integrator::kHeun;
+  world.config.integrator = Integrator::kHeun;
   world.material() = {0.5, 0.5, false};
   world.addWall(Vector3(20.0, 20.0, 1.0), Vector3(0.0, 0.0, -0.5));
   world.addBox(1.0 / kMostMassRatio, Vector3::Constant(0.2), Vector3(0.0, 0.0, 0.102), atRest());
@@ -251,7 +251,7 @@ TEST(World, ABoxSticksOrSlidesOnAnInclineAsItsFrictionSays) {
 TEST(World, NothingOverlapsInAFallingHeap) {
   for (const double e : {0.0, 0.4}) {
     TestWorld world;
-    world.rules.integrator = Integrator::kHeun;
+    world.config.integrator = Integrator::kHeun;
     world.gravity = kGravity;
     world.material() = {e, 0.5, false};
     world.addPen(Vector3(0.7, 0.7, 3.0));

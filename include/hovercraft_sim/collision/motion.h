@@ -8,18 +8,28 @@
 
 namespace hovercraft {
 
-/// How a frame B moves in W over a step: its origin with constant acceleration, its axes with
-/// constant angular velocity.
-///   p(t) = p + v t + a t²/2,  R(t) = exp(skew(w) t) R(q)
+/// How a frame B moves in W over a step: its origin with constant acceleration, its axes about one
+/// axis with constant angular acceleration.
+///   p(t) = p + v t + a t²/2,  R(t) = exp(skew(w t + alpha t²/2)) R(q)
+/// Invariant: alpha is parallel to w, so that w + alpha t is the angular velocity.
 struct HOVERCRAFT_PUBLIC StepMotion {
-  Vector3 p_WB = Vector3::Zero();  // m, at t = 0
-  Quaternion q_WB;                 // unit, at t = 0
-  Vector3 v_WB = Vector3::Zero();  // m/s at t = 0
-  Vector3 a_WB = Vector3::Zero();  // m/s²
-  Vector3 w_WB = Vector3::Zero();  // rad/s, in W
+  Vector3 p_WB = Vector3::Zero();      // m, at t = 0
+  Quaternion q_WB;                     // unit, at t = 0
+  Vector3 v_WB = Vector3::Zero();      // m/s at t = 0
+  Vector3 a_WB = Vector3::Zero();      // m/s²
+  Vector3 w_WB = Vector3::Zero();      // rad/s at t = 0, in W
+  Vector3 alpha_WB = Vector3::Zero();  // rad/s², along w_WB
 
   /// The pose at time t, s.
   Pose at(double t) const;
+  /// The angular velocity at time t, rad/s.
+  Vector3 angularVelocity(double t) const { return w_WB + t * alpha_WB; }
+  /// The fastest angular velocity from t = 0 to `duration`, rad/s: that of one of its ends.
+  Vector3 fastestTurn(double duration) const;
+  /// Makes both ends' velocities those of a motion of `duration` s that motionBetween() gave, whose
+  /// poses at both ends stay: the change of velocity over it, and of the angular velocity what lies
+  /// along the axis that it turns about. @param dv_WB m/s. @param dw_WB rad/s.
+  void bend(const Vector3& dv_WB, const Vector3& dw_WB, double duration);
 };
 
 /// The motion that takes a frame from one pose to another in `duration` s at constant velocities,

@@ -28,17 +28,22 @@ class RelativeMotion {
     Vector3 n;         // unit, from A to B
     Vector3 v;         // velocity of B's origin against A's, m/s
     Vector3 from_A_B;  // B's origin from A's, m
-    double closing;    // of the origins along n, m/s
-    double time;       // s
-    double margin;     // m
+    Vector3 w_A;       // angular velocities, rad/s
+    Vector3 w_B;
+    double closing;  // of the origins along n, m/s
+    double time;     // s
+    double margin;   // m
   };
 
   /// One of the bodies, as the bounds that are the same for both see it.
   struct Side {
     const ConvexPolyhedron& body;
     const StepMotion& motion;
-    double spin;  // rad/s
+    Vector3 fastest;  // angular velocity, rad/s, of all times of the step
+    double spin;      // rad/s, of it
+    double alpha;     // rad/s²
   };
+  static Side sideOf(const ConvexPolyhedron& body, const StepMotion& motion, double duration);
 
   double clearTimeAnywhere(double gap, const Instant& now) const;
   double clearTimeOfVertexFace(const ClosestFeatures& now, double t, const Instant& instant) const;
@@ -50,13 +55,18 @@ class RelativeMotion {
   double clearTimeOverFace(const Side& face_side, int face, const Side& other, int vertex,
                            const Instant& instant) const;
   double timeLowest(const Side& face_side, const Side& other, const Vector3& up, const Pose& X_WV,
-                    int vertex) const;
+                    int vertex, double t) const;
+  double slopeCurvature(const Side& face_side, const Side& other, const Vector3& e,
+                        double swept) const;
   double closingOfWitnesses(const ClosestFeatures& now, double t, const Instant& instant) const;
-  /// Bound on the acceleration of B's points in the axes of A (or the other way round): inertial,
-  /// Coriolis and centrifugal.
-  double turningAcceleration(double spin_axes, double spin, double radius) const {
-    return acceleration_ + spin * spin * radius + 2.0 * spin_axes * (speed_ + spin * radius) +
-           spin_axes * spin_axes * (reach_ + radius);
+  double curvatureAcross(const Side& side, const Vector3& n) const;
+  /// Bound on the acceleration, m/s², of a body's points in the axes of the other one: inertial,
+  /// Coriolis, centrifugal and Euler's.
+  double turningAcceleration(const Side& axes, const Side& body) const {
+    const double radius = body.body.data().radius;
+    return acceleration_ + (body.spin * body.spin + body.alpha) * radius +
+           2.0 * axes.spin * (speed_ + body.spin * radius) +
+           (axes.spin * axes.spin + axes.alpha) * (reach_ + radius);
   }
 
   Side side_A_;
@@ -68,9 +78,10 @@ class RelativeMotion {
   double acceleration_;
   double spin_A_;
   double spin_B_;
-  double spin_;
-  double speed_;  // of the origins
-  double reach_;  // largest distance of the origins
+  double spin_;     // of one against the other, at most
+  double spin_up_;  // rad/s², likewise
+  double speed_;    // of the origins
+  double reach_;    // largest distance of the origins
   double duration_;
 };
 

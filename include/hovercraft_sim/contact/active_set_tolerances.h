@@ -13,6 +13,10 @@ namespace hovercraft {
 constexpr double kEqualityPenalty = 1e8;
 constexpr int kEqualityTurns = 3;
 
+/// That part (-): less than it of what its points stop is not asked of an active set, or a stack at
+/// steps of 50 ms would be solved anew without end.
+constexpr double kActiveSetRounding = 1e-8;
+
 /// Sweeps (-) before an active set is guessed from them, and between two guesses: the least that
 /// resting contacts get in any case.
 constexpr int kSweepsBeforeActiveSet = 4;

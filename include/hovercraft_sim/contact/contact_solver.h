@@ -170,6 +170,7 @@ class ContactSolver {
   void goOn(double share);
   bool canSolveActiveSet();
   bool solveActiveSet(double tolerance);
+  double roundingOfActiveSets() const;
   void guessStates(double tolerance);
   void takeAway();
   void addEqualities();

@@ -140,7 +140,7 @@ constexpr int kMaxCorrectionSweeps = 100;
 constexpr int kMaxBounces = 8;
 
 /// Bound on the events of a step, of an island without pairs and for each pair, after which all is
-/// plastic; after twice as many the rest of the step is left out.
+/// plastic but pairs of e = 1; after twice as many the rest of the step is left out.
 constexpr int kMaxEvents = 32;
 constexpr int kMaxEventsPerPair = 2;
 
