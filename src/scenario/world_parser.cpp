@@ -187,10 +187,10 @@ void checkStart(const ConfigReader& reader, const Scenario& scenario) {
                         overlap->a, overlap->b, overlap->depth, world.scene().config().tolerance));
   }
   world.separateTouching(states);
-  if (const auto tooClose = world.tooClose(states)) {
+  if (const auto too_close = world.tooClose(states)) {
     reader.fail("", fmt::format("{} and {} touch at the start and cannot be parted: others are in "
                                 "the way",
-                                tooClose->a, tooClose->b));
+                                too_close->a, too_close->b));
   }
 }
 

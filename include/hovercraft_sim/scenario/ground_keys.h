@@ -29,10 +29,10 @@ inline constexpr auto kPlaneKeys = [](auto& plane, auto&& visit) {
 };
 
 /// x, y and yaw of a lower left corner, as in the YAML of map_server.
-struct OriginKey : VectorKey {
-  explicit OriginKey(const char* its_name) : VectorKey(its_name, "m", kCoordinate) {}
+struct OriginKey : ThreeNumbersKey {
+  explicit OriginKey(const char* its_name) : ThreeNumbersKey(its_name, "m", kCoordinate) {}
   void read(const ConfigReader& reader, const char* full_name, Vector3& value) const {
-    VectorKey::read(reader, full_name, value);
+    value = reader.vector(full_name, rule);
     if (value.z() == 0.0) return;
     reader.fail(full_name, "must have yaw 0: a height map lies along x and y");
   }

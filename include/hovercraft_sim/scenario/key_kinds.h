@@ -96,20 +96,24 @@ struct WholeNumberKey : Key {
 };
 
 /// Three numbers, each of which obeys the rule.
-struct VectorKey : Key {
-  VectorKey(const char* its_name, const char* its_unit, const NumberRule& its_rule = kAnyNumber)
+struct ThreeNumbersKey : Key {
+  ThreeNumbersKey(const char* its_name, const char* its_unit,
+                  const NumberRule& its_rule = kAnyNumber)
       : Key(its_name, its_unit), rule(its_rule) {}
-  void read(const ConfigReader& reader, const char* full_name, Vector3& value) const {
-    value = reader.vector(full_name, rule);
-  }
   static std::string text(const Vector3& value) { return yamlVector(value); }
 
   NumberRule rule;
 };
-
-/// Three numbers, or one that stands for all of them.
-struct NumberOrVectorKey : VectorKey {
-  using VectorKey::VectorKey;
+/// As a list of them.
+struct VectorKey : ThreeNumbersKey {
+  using ThreeNumbersKey::ThreeNumbersKey;
+  void read(const ConfigReader& reader, const char* full_name, Vector3& value) const {
+    value = reader.vector(full_name, rule);
+  }
+};
+/// The same, or one number that stands for all of them.
+struct NumberOrVectorKey : ThreeNumbersKey {
+  using ThreeNumbersKey::ThreeNumbersKey;
   void read(const ConfigReader& reader, const char* full_name, Vector3& value) const {
     value = reader.numberOrVector(full_name, rule);
   }
