@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "hovercraft_sim/scenario/cushion_keys.h"
 #include "hovercraft_sim/scenario/scenario_names.h"
 #include "hovercraft_sim/scenario/yaml_text.h"
 
 namespace hovercraft {
 namespace {
-
-const NumberRule kDischargeRule = {[](double x) { return x > 0.0 && x <= 1.0; },
-                                   "must be greater than 0 and at most 1"};
 
 /// The actuator that turns a fan. @param actuators of the craft.
 void parseDrive(const ConfigReader& reader, const std::vector<ActuatorScenario>& actuators,
@@ -37,12 +35,12 @@ void parseSpeed(const ConfigReader& reader, CushionFan& fan) {
   fan.speed = reader.numberOr(1.0, "speed", kNotNegative);
   if (!reader.has("speeds")) return;
   for (const ConfigReader& point : reader.list("speeds")) {
-    point.allowOnly({"time", "speed"});
-    const double time = point.number("time", kNotNegative);
-    if (!fan.speeds.empty() && !(time > fan.speeds.back().time)) {
+    FanSpeedPoint speed;
+    parseKeys(point, kFanSpeedKeys, speed);
+    if (!fan.speeds.empty() && !(speed.time > fan.speeds.back().time)) {
       point.fail("time", "must be greater than the time before it");
     }
-    fan.speeds.push_back({time, point.number("speed", kNotNegative)});
+    fan.speeds.push_back(speed);
   }
 }
 
@@ -51,18 +49,15 @@ CushionFan parseFan(const std::string& name, const ConfigReader& reader,
   if (!isGraphName(name)) {
     reader.fail("", "a name is a ROS name: a letter, then letters, digits and _");
   }
-  reader.allowOnly({"shutoff", "slope", "curve", "intake", "speed", "speeds", "lift_fan"});
   CushionFan fan;
+  reader.allowOnly(together({keyNames(kCushionFanKeys, fan), {"speed", "speeds", "lift_fan"}}));
   fan.name = name;
-  fan.curve.shutoff = reader.number("shutoff", kPositive);
-  fan.curve.slope = reader.numberOr(0.0, "slope", kNotPositive);
-  fan.curve.curve = reader.numberOr(0.0, "curve", kNotNegative);
+  readKeys(reader, kCushionFanKeys, fan);
   if (fan.curve.slope == 0.0 && fan.curve.curve == 0.0) {
     reader.fail("curve",
                 "must be greater than 0 where slope is 0: the pressure must fall with the "
                 "flow");
   }
-  fan.p_HI = reader.vectorOr(Vector3::Zero(), "intake", kCoordinate);
   if (reader.has("lift_fan")) {
     parseDrive(reader, actuators, fan);
   } else {
@@ -85,15 +80,13 @@ std::size_t fanOf(const ConfigReader& reader, const std::vector<CushionFan>& fan
 }
 
 CushionCell parseCell(const ConfigReader& reader, const std::vector<CushionFan>& fans) {
-  reader.allowOnly({"center", "area", "height", "fan", "hem"});
   CushionCell cell;
-  cell.p_HC = reader.vector("center", kCoordinate);
-  cell.area = reader.length("area");
-  cell.height = reader.length("height");
+  reader.allowOnly(together({keyNames(kCellKeys, cell), {"fan", "hem"}}));
+  readKeys(reader, kCellKeys, cell);
   cell.fan = fanOf(reader, fans);
   for (const ConfigReader& point : reader.list("hem")) {
-    point.allowOnly({"p", "length"});
-    cell.hem.push_back({point.vector("p", kCoordinate), point.length("length")});
+    cell.hem.emplace_back();
+    parseKeys(point, kHemKeys, cell.hem.back());
   }
   return cell;
 }
@@ -102,23 +95,19 @@ CushionCell parseCell(const ConfigReader& reader, const std::vector<CushionFan>&
 class RectangleCells {
  public:
   RectangleCells(const ConfigReader& reader, const std::vector<CushionFan>& fans) {
-    reader.allowOnly(
-        {"length", "width", "columns", "rows", "points_per_side", "position", "height", "fan"});
-    length_ = reader.length("length");
-    width_ = reader.length("width");
-    columns_ = count(reader, "columns");
-    rows_ = count(reader, "rows");
-    points_ = count(reader, "points_per_side");
-    center_ = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
-    height_ = reader.length("height");
+    reader.allowOnly(together({keyNames(kRectangleKeys, all_), {"fan"}}));
+    readKeys(reader, kRectangleKeys, all_);
+    checkCount(reader, "columns", all_.columns);
+    checkCount(reader, "rows", all_.rows);
+    checkCount(reader, "points_per_side", all_.points);
     fan_ = fanOf(reader, fans);
   }
 
   /// Row by row from port to starboard, in each from the bow to the stern.
   std::vector<CushionCell> cells() const {
     std::vector<CushionCell> cells;
-    for (std::int64_t row = 0; row < rows_; ++row) {
-      for (std::int64_t column = 0; column < columns_; ++column) {
+    for (std::int64_t row = 0; row < all_.rows; ++row) {
+      for (std::int64_t column = 0; column < all_.columns; ++column) {
         cells.push_back(cellAt(column, row));
       }
     }
@@ -126,12 +115,10 @@ class RectangleCells {
   }
 
  private:
-  static std::int64_t count(const ConfigReader& reader, const char* key) {
-    const std::int64_t number = reader.wholeNumberOr(1, key);
-    if (number < 1 || number > static_cast<std::int64_t>(kMaxHemPoints)) {
+  static void checkCount(const ConfigReader& reader, const char* key, std::int64_t count) {
+    if (count < 1 || count > static_cast<std::int64_t>(kMaxHemPoints)) {
       reader.fail(key, fmt::format("must be from 1 to {}", kMaxHemPoints));
     }
-    return number;
   }
   /// Of `parts` equal parts of an extent the place of the middle of one, from the middle of all;
   /// those of mirrored parts are equal but for their sign.
@@ -140,36 +127,31 @@ class RectangleCells {
   }
   CushionCell cellAt(std::int64_t column, std::int64_t row) const {
     CushionCell cell;
-    const double long_side = length_ / static_cast<double>(columns_);
-    const double wide_side = width_ / static_cast<double>(rows_);
-    const double x = placeOf(length_, column, columns_);
-    const double y = placeOf(width_, row, rows_);
-    cell.p_HC = center_ + Vector3(x, y, 0.0);
+    const double long_side = all_.length / static_cast<double>(all_.columns);
+    const double wide_side = all_.width / static_cast<double>(all_.rows);
+    const double x = placeOf(all_.length, column, all_.columns);
+    const double y = placeOf(all_.width, row, all_.rows);
+    cell.p_HC = all_.position + Vector3(x, y, 0.0);
     cell.area = long_side * wide_side;
-    cell.height = height_;
+    cell.height = all_.height;
     cell.fan = fan_;
-    for (std::int64_t i = 0; i < points_; ++i) {
-      const double share = static_cast<double>(points_);
-      const double along_x = placeOf(length_, column * points_ + i, columns_ * points_);
-      const double along_y = placeOf(width_, row * points_ + i, rows_ * points_);
+    for (std::int64_t i = 0; i < all_.points; ++i) {
+      const double share = static_cast<double>(all_.points);
+      const double along_x =
+          placeOf(all_.length, column * all_.points + i, all_.columns * all_.points);
+      const double along_y = placeOf(all_.width, row * all_.points + i, all_.rows * all_.points);
       const auto add = [&](double px, double py, double side) {
-        cell.hem.push_back({center_ + Vector3(px, py, 0.0), side / share});
+        cell.hem.push_back({all_.position + Vector3(px, py, 0.0), side / share});
       };
-      if (column == 0) add(0.5 * length_, along_y, wide_side);
-      if (column == columns_ - 1) add(-0.5 * length_, along_y, wide_side);
-      if (row == 0) add(along_x, 0.5 * width_, long_side);
-      if (row == rows_ - 1) add(along_x, -0.5 * width_, long_side);
+      if (column == 0) add(0.5 * all_.length, along_y, wide_side);
+      if (column == all_.columns - 1) add(-0.5 * all_.length, along_y, wide_side);
+      if (row == 0) add(along_x, 0.5 * all_.width, long_side);
+      if (row == all_.rows - 1) add(along_x, -0.5 * all_.width, long_side);
     }
     return cell;
   }
 
-  double length_ = 0.0;  // m, along x
-  double width_ = 0.0;   // m, along y
-  std::int64_t columns_ = 1;
-  std::int64_t rows_ = 1;
-  std::int64_t points_ = 1;  // of each side of a cell
-  Vector3 center_;           // m, in H
-  double height_ = 0.0;      // m
+  CellRectangle all_;
   std::size_t fan_ = 0;
 };
 
@@ -200,23 +182,12 @@ std::vector<CushionCell> parseCells(const ConfigReader& reader,
   return cells;
 }
 
-Skirt parseSkirt(const ConfigReader& reader) {
-  reader.allowOnly({"stiffness", "damping", "friction", "slip_speed"});
-  Skirt skirt;
-  skirt.stiffness = reader.numberOr(0.0, "stiffness", kNotNegative);
-  skirt.spring.damping = reader.numberOr(0.0, "damping", kNotNegative);
-  skirt.spring.friction = reader.numberOr(0.0, "friction", kNotNegative);
-  skirt.spring.slip_speed = reader.numberOr(skirt.spring.slip_speed, "slip_speed", kPositive);
-  return skirt;
-}
-
 std::string speedText(const CushionFan& fan) {
   if (!fan.lift_fan.empty()) return "lift_fan: " + yamlText(fan.lift_fan);
   if (fan.speeds.empty()) return "speed: " + yamlNumber(fan.speed);
   std::string points;
   for (const FanSpeedPoint& point : fan.speeds) {
-    points += fmt::format("{}{{time: {}, speed: {}}}", points.empty() ? "" : ", ",
-                          yamlNumber(point.time), yamlNumber(point.speed));
+    points += (points.empty() ? "{" : ", {") + keysText(kFanSpeedKeys, point) + "}";
   }
   return "speeds: [" + points + "]";
 }
@@ -224,11 +195,9 @@ std::string speedText(const CushionFan& fan) {
 std::string cellYaml(const CushionCell& cell, const std::vector<CushionFan>& fans) {
   std::string hem;
   for (const HemPoint& point : cell.hem) {
-    hem += fmt::format("{}{{p: {}, length: {}}}", hem.empty() ? "" : ", ", yamlVector(point.p_HK),
-                       yamlNumber(point.length));
+    hem += (hem.empty() ? "{" : ", {") + keysText(kHemKeys, point) + "}";
   }
-  return fmt::format("        - {{center: {}, area: {}, height: {}, fan: {}, hem: [{}]}}\n",
-                     yamlVector(cell.p_HC), yamlNumber(cell.area), yamlNumber(cell.height),
+  return fmt::format("        - {{{}, fan: {}, hem: [{}]}}\n", keysText(kCellKeys, cell),
                      yamlText(fans[cell.fan].name), hem);
 }
 
@@ -238,14 +207,11 @@ std::optional<CushionParameters> parseCushion(const ConfigReader& vehicle,
                                               const std::vector<ActuatorScenario>& actuators) {
   if (!vehicle.has("cushion")) return std::nullopt;
   const ConfigReader reader = vehicle.map("cushion");
-  reader.allowOnly(
-      {"mode", "discharge", "residual_gap", "air_density", "fans", "cells", "rectangle", "skirt"});
-  reader.choiceOr(0, "mode", {"quasi_static"});
   CushionParameters cushion;
-  cushion.discharge = reader.numberOr(cushion.discharge, "discharge", kDischargeRule);
-  cushion.residual_gap =
-      reader.has("residual_gap") ? reader.length("residual_gap") : cushion.residual_gap;
-  cushion.air_density = reader.numberOr(cushion.air_density, "air_density", kPositive);
+  reader.allowOnly(together(
+      {{"mode"}, keyNames(kCushionKeys, cushion), {"fans", "cells", "rectangle", "skirt"}}));
+  reader.choiceOr(0, "mode", {"quasi_static"});
+  readKeys(reader, kCushionKeys, cushion);
   for (const auto& [name, entry] : reader.map("fans").maps()) {
     const CushionFan fan = parseFan(name, entry, actuators);
     const auto is_turned_alike = [&](const CushionFan& other) {
@@ -260,32 +226,22 @@ std::optional<CushionParameters> parseCushion(const ConfigReader& vehicle,
     reader.fail("fans", fmt::format("must name from 1 to {} fans", kMaxFans));
   }
   cushion.cells = parseCells(reader, cushion.fans);
-  if (reader.has("skirt")) cushion.skirt = parseSkirt(reader.map("skirt"));
+  if (reader.has("skirt")) parseKeys(reader.map("skirt"), kSkirtKeys, cushion.skirt);
   return cushion;
 }
 
 std::string cushionYaml(const VehicleScenario& vehicle) {
   if (!vehicle.cushion) return "";
   const CushionParameters& cushion = *vehicle.cushion;
-  std::string yaml = fmt::format(
-      "    cushion:\n      mode: quasi_static\n      discharge: {}\n      residual_gap: {}\n"
-      "      air_density: {}\n      fans:\n",
-      yamlNumber(cushion.discharge), yamlNumber(cushion.residual_gap),
-      yamlNumber(cushion.air_density));
+  std::string yaml = "    cushion:\n      mode: quasi_static\n" +
+                     keysText(kCushionKeys, cushion, "      ", "\n") + "\n      fans:\n";
   for (const CushionFan& fan : cushion.fans) {
-    yaml +=
-        fmt::format("        {}: {{shutoff: {}, slope: {}, curve: {}, intake: {}, {}}}\n",
-                    yamlText(fan.name), yamlNumber(fan.curve.shutoff), yamlNumber(fan.curve.slope),
-                    yamlNumber(fan.curve.curve), yamlVector(fan.p_HI), speedText(fan));
+    yaml += fmt::format("        {}: {{{}, {}}}\n", yamlText(fan.name),
+                        keysText(kCushionFanKeys, fan), speedText(fan));
   }
   yaml += "      cells:\n";
   for (const CushionCell& cell : cushion.cells) yaml += cellYaml(cell, cushion.fans);
-  const GroundSpring& spring = cushion.skirt.spring;
-  return yaml + fmt::format(
-                    "      skirt: {{stiffness: {}, damping: {}, friction: {}, "
-                    "slip_speed: {}}}\n",
-                    yamlNumber(cushion.skirt.stiffness), yamlNumber(spring.damping),
-                    yamlNumber(spring.friction), yamlNumber(spring.slip_speed));
+  return yaml + "      skirt: {" + keysText(kSkirtKeys, cushion.skirt) + "}\n";
 }
 
 }  // namespace hovercraft

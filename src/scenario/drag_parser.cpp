@@ -7,6 +7,7 @@
 
 #include "hovercraft_sim/math/constants.h"
 #include "hovercraft_sim/math/elementary.h"
+#include "hovercraft_sim/scenario/craft_keys.h"
 #include "hovercraft_sim/scenario/yaml_text.h"
 
 namespace hovercraft {
@@ -57,11 +58,9 @@ std::string termsText(const DragPolar::Terms& terms) {
 
 /// One that would give energy to the craft, in any of 720 directions of the air, is refused.
 DragPolar parsePolar(const ConfigReader& reader) {
-  reader.allowOnly({"air_density", "area_x", "area_y", "length", "surge", "sway", "yaw"});
   DragPolar polar;
-  polar.air_density = reader.numberOr(polar.air_density, "air_density", kPositive);
-  polar.area_x = reader.number("area_x", kNotNegative);
-  polar.area_y = reader.number("area_y", kNotNegative);
+  reader.allowOnly(together({keyNames(kPolarKeys, polar), {"length", "surge", "sway", "yaw"}}));
+  readKeys(reader, kPolarKeys, polar);
   polar.surge = parseTerms(reader, "surge");
   polar.sway = parseTerms(reader, "sway");
   polar.yaw = parseTerms(reader, "yaw");
@@ -80,9 +79,8 @@ DragPolar parsePolar(const ConfigReader& reader) {
 struct LawWriter {
   std::string operator()(const DragPolar& polar) const {
     std::string text =
-        fmt::format(", polar: {{air_density: {}, area_x: {}, area_y: {}, surge: {}, sway: {}",
-                    yamlNumber(polar.air_density), yamlNumber(polar.area_x),
-                    yamlNumber(polar.area_y), termsText(polar.surge), termsText(polar.sway));
+        fmt::format(", polar: {{{}, surge: {}, sway: {}", keysText(kPolarKeys, polar),
+                    termsText(polar.surge), termsText(polar.sway));
     if (polar.length > 0.0) {
       text += fmt::format(", length: {}, yaw: {}", yamlNumber(polar.length), termsText(polar.yaw));
     }
@@ -93,20 +91,13 @@ struct LawWriter {
 }  // namespace
 
 void parseDrag(const ConfigReader& reader, VehicleScenario& vehicle) {
-  reader.allowOnly({"linear", "quadratic", "angular_linear", "angular_quadratic", "polar"});
-  Drag& drag = vehicle.drag;
-  drag.linear = reader.vectorOr(Vector3::Zero(), "linear", kNotNegative);
-  drag.quadratic = reader.vectorOr(Vector3::Zero(), "quadratic", kNotNegative);
-  drag.angular_linear = reader.vectorOr(Vector3::Zero(), "angular_linear", kNotNegative);
-  drag.angular_quadratic = reader.vectorOr(Vector3::Zero(), "angular_quadratic", kNotNegative);
+  reader.allowOnly(together({keyNames(kDragKeys, vehicle.drag), {"polar"}}));
+  readKeys(reader, kDragKeys, vehicle.drag);
   if (reader.has("polar")) vehicle.drag_laws.emplace_back(parsePolar(reader.map("polar")));
 }
 
 std::string dragYaml(const VehicleScenario& vehicle) {
-  std::string text = fmt::format(
-      "    drag: {{linear: {}, quadratic: {}, angular_linear: {}, angular_quadratic: {}",
-      yamlVector(vehicle.drag.linear), yamlVector(vehicle.drag.quadratic),
-      yamlVector(vehicle.drag.angular_linear), yamlVector(vehicle.drag.angular_quadratic));
+  std::string text = "    drag: {" + keysText(kDragKeys, vehicle.drag);
   for (const DragLaw& law : vehicle.drag_laws) text += std::visit(LawWriter(), law);
   return text + "}\n";
 }

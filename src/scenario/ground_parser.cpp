@@ -8,17 +8,15 @@
 #include "hovercraft_sim/io/grey_image.h"
 #include "hovercraft_sim/io/input_file.h"
 #include "hovercraft_sim/math/tolerances.h"
+#include "hovercraft_sim/scenario/ground_keys.h"
 #include "hovercraft_sim/scenario/mesh_parser.h"
-#include "hovercraft_sim/scenario/yaml_text.h"
 
 namespace hovercraft {
 namespace {
 
 PlaneScenario parsePlane(const ConfigReader& reader) {
-  reader.allowOnly({"height", "normal"});
   PlaneScenario plane;
-  plane.height = reader.numberOr(0.0, "height", kCoordinate);
-  plane.normal = reader.vectorOr(Vector3::UnitZ(), "normal");
+  parseKeys(reader, kPlaneKeys, plane);
   if (std::abs(norm(plane.normal) - 1.0) > kUnitLength) {
     reader.fail("normal", fmt::format("must have length 1 (it has {:.6g})", norm(plane.normal)));
   }
@@ -63,15 +61,9 @@ HeightGrid gridOf(const HeightMapScenario& map) {
 }
 
 HeightMapScenario parseHeightMap(const ConfigReader& reader, const ScenarioSource& source) {
-  reader.allowOnly({"file", "data", "resolution", "origin", "z_min", "z_max"});
   HeightMapScenario map;
-  map.resolution = reader.length("resolution");
-  const Vector3 origin = reader.vectorOr(Vector3::Zero(), "origin", kCoordinate);
-  if (origin.z() != 0.0) reader.fail("origin", "must have yaw 0: a height map lies along x and y");
-  map.x = origin.x();
-  map.y = origin.y();
-  map.z_min = reader.number("z_min", kCoordinate);
-  map.z_max = reader.number("z_max", kCoordinate);
+  reader.allowOnly(together({{"file", "data"}, keyNames(kHeightMapKeys, map)}));
+  readKeys(reader, kHeightMapKeys, map);
   if (!(map.z_max > map.z_min)) reader.fail("z_max", "must be greater than z_min");
   map.image = imageOf(reader, source);
   try {
@@ -82,26 +74,13 @@ HeightMapScenario parseHeightMap(const ConfigReader& reader, const ScenarioSourc
   return map;
 }
 
-PadParameters parsePads(const ConfigReader& reader) {
-  reader.allowOnly({"sink", "damping", "friction", "slip_speed"});
-  PadParameters pads;
-  if (reader.has("sink")) pads.sink = reader.length("sink");
-  pads.spring.damping = reader.numberOr(pads.spring.damping, "damping", kNotNegative);
-  pads.spring.friction = reader.numberOr(pads.spring.friction, "friction", kNotNegative);
-  pads.spring.slip_speed = reader.numberOr(pads.spring.slip_speed, "slip_speed", kPositive);
-  return pads;
-}
-
 struct SurfaceWriter {
   std::string operator()(const PlaneScenario& plane) const {
-    return fmt::format("  plane: {{height: {}, normal: {}}}\n", yamlNumber(plane.height),
-                       yamlVector(plane.normal));
+    return "  plane: {" + keysText(kPlaneKeys, plane) + "}\n";
   }
   std::string operator()(const HeightMapScenario& map) const {
-    return fmt::format(
-        "  height_map: {{resolution: {}, origin: {}, z_min: {}, z_max: {}, data: \"{}\"}}\n",
-        yamlNumber(map.resolution), yamlVector({map.x, map.y, 0.0}), yamlNumber(map.z_min),
-        yamlNumber(map.z_max), base64Text(map.image));
+    return fmt::format("  height_map: {{{}, data: \"{}\"}}\n", keysText(kHeightMapKeys, map),
+                       base64Text(map.image));
   }
 };
 
@@ -130,17 +109,14 @@ std::optional<GroundScenario> parseGround(const ConfigReader& top, const Scenari
   } else {
     ground.surface = parseHeightMap(reader.map("height_map"), source);
   }
-  if (reader.has("pads")) ground.pads = parsePads(reader.map("pads"));
+  if (reader.has("pads")) parseKeys(reader.map("pads"), kPadKeys, ground.pads);
   return ground;
 }
 
 std::string groundYaml(const Scenario& scenario) {
   if (!scenario.ground) return "";
-  const PadParameters& pads = scenario.ground->pads;
-  return "ground:\n" + std::visit(SurfaceWriter(), scenario.ground->surface) +
-         fmt::format("  pads: {{sink: {}, damping: {}, friction: {}, slip_speed: {}}}\n",
-                     yamlNumber(pads.sink), yamlNumber(pads.spring.damping),
-                     yamlNumber(pads.spring.friction), yamlNumber(pads.spring.slip_speed));
+  return "ground:\n" + std::visit(SurfaceWriter(), scenario.ground->surface) + "  pads: {" +
+         keysText(kPadKeys, scenario.ground->pads) + "}\n";
 }
 
 std::shared_ptr<const Ground> surfaceOf(const GroundScenario& ground) {

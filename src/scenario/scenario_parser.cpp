@@ -15,6 +15,7 @@
 #include "hovercraft_sim/scenario/actuator_topics.h"
 #include "hovercraft_sim/scenario/air_parser.h"
 #include "hovercraft_sim/scenario/config_reader.h"
+#include "hovercraft_sim/scenario/craft_keys.h"
 #include "hovercraft_sim/scenario/cushion_parser.h"
 #include "hovercraft_sim/scenario/drag_parser.h"
 #include "hovercraft_sim/scenario/fleet.h"
@@ -22,7 +23,6 @@
 #include "hovercraft_sim/scenario/mesh_parser.h"
 #include "hovercraft_sim/scenario/scenario_names.h"
 #include "hovercraft_sim/scenario/sensor_parser.h"
-#include "hovercraft_sim/scenario/step_time.h"
 #include "hovercraft_sim/scenario/version.h"
 #include "hovercraft_sim/scenario/world_parser.h"
 
@@ -31,14 +31,11 @@ namespace {
 
 Matrix3 parseInertia(const ConfigReader& vehicle) {
   const ConfigReader reader = vehicle.map("inertia");
-  reader.allowOnly({"ixx", "iyy", "izz", "ixy", "ixz", "iyz"});
-  Matrix3 inertia;
-  inertia(0, 0) = reader.number("ixx");
-  inertia(1, 1) = reader.number("iyy");
-  inertia(2, 2) = reader.number("izz");
-  inertia(0, 1) = inertia(1, 0) = reader.numberOr(0.0, "ixy");
-  inertia(0, 2) = inertia(2, 0) = reader.numberOr(0.0, "ixz");
-  inertia(1, 2) = inertia(2, 1) = reader.numberOr(0.0, "iyz");
+  Matrix3 inertia = Matrix3::Zero();
+  parseKeys(reader, kInertiaKeys, inertia);
+  inertia(1, 0) = inertia(0, 1);
+  inertia(2, 0) = inertia(0, 2);
+  inertia(2, 1) = inertia(1, 2);
   return inertia;
 }
 
@@ -150,11 +147,7 @@ void parseMass(const ConfigReader& reader, const ScenarioSource& source, Vehicle
 }
 
 void parseInitial(const ConfigReader& reader, BodyModel model, VehicleScenario& vehicle) {
-  reader.allowOnly({"position", "rpy", "velocity", "angular_velocity"});
-  vehicle.initial_p_WB = reader.vectorOr(Vector3::Zero(), "position", kCoordinate);
-  vehicle.initial_rpy = reader.vectorOr(Vector3::Zero(), "rpy");
-  vehicle.initial_v_WB = reader.vectorOr(Vector3::Zero(), "velocity");
-  vehicle.initial_w_WB = reader.vectorOr(Vector3::Zero(), "angular_velocity");
+  parseKeys(reader, kInitialKeys, vehicle);
   if (model != BodyModel::kPlanar) return;
   const char* rule = "does not fit model: planar, which moves in x, y and yaw only";
   if (vehicle.initial_rpy.x() != 0.0 || vehicle.initial_rpy.y() != 0.0) reader.fail("rpy", rule);
@@ -204,20 +197,6 @@ void checkPhysicsVersion(const ConfigReader& reader, bool may_be_older) {
                                              kPhysicsVersion));
 }
 
-/// Fills what a scenario has besides bodies and what they meet.
-void parseRun(const ConfigReader& reader, Scenario& scenario) {
-  scenario.step_ns = nanosecondsOf(reader, "step_size", reader.number("step_size", kPositive));
-  scenario.integrator = static_cast<Integrator>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.integrator), "integrator", integratorNames()));
-  scenario.orientation = static_cast<OrientationKind>(reader.choiceOr(
-      static_cast<std::size_t>(scenario.orientation), "orientation", orientationNames()));
-  scenario.model = static_cast<BodyModel>(
-      reader.choiceOr(static_cast<std::size_t>(scenario.model), "model", modelNames()));
-  scenario.gravity = reader.vectorOr(Vector3::Zero(), "gravity");
-  parseAir(reader, scenario);
-  scenario.seed = reader.wholeNumberOr(scenario.seed, "seed");
-}
-
 /// The tree with its fleets written out.
 ConfigNode withFleets(const ConfigNode& tree, const ScenarioSource& source, BodyModel model) {
   ScenarioSource silent = source;  // the craft written out say what there is to know
@@ -256,12 +235,17 @@ std::int64_t physicsVersionOf(const std::string& text, const std::string& source
 Scenario parseScenario(const ConfigNode& tree, const ScenarioSource& source) {
   const FloatingPointEnvironment environment;
   const ConfigReader written(tree, source.name);
-  written.allowOnly({"physics_version", "software", "step_size", "integrator", "orientation",
-                     "model", "gravity", "wind", "gusts", "seed", "vehicles", "world", "ground"});
   Scenario scenario;
+  written.allowOnly(together({{"physics_version", "software"},
+                              keyNames(kRunKeys, scenario),
+                              {"gusts"},
+                              keyNames(kSeedKeys, scenario),
+                              {"vehicles", "world", "ground"}}));
   checkPhysicsVersion(written, source.may_be_older);
   if (written.has("software")) (void)written.text("software");  // whatever wrote it
-  parseRun(written, scenario);
+  readKeys(written, kRunKeys, scenario);
+  parseAir(written, scenario);
+  readKeys(written, kSeedKeys, scenario);
   written.map("vehicles");  // is there
   const ConfigReader reader(withFleets(tree, source, scenario.model), source.name);
   const ScenarioSource told = notingOneOfEachFleet(source, *tree.find("vehicles"));

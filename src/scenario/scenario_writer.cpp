@@ -9,11 +9,11 @@
 #include "hovercraft_sim/math/floating_point_environment.h"
 #include "hovercraft_sim/scenario/actuator_parser.h"
 #include "hovercraft_sim/scenario/air_parser.h"
+#include "hovercraft_sim/scenario/craft_keys.h"
 #include "hovercraft_sim/scenario/cushion_parser.h"
 #include "hovercraft_sim/scenario/drag_parser.h"
 #include "hovercraft_sim/scenario/ground_parser.h"
 #include "hovercraft_sim/scenario/mesh_parser.h"
-#include "hovercraft_sim/scenario/scenario_names.h"
 #include "hovercraft_sim/scenario/scenario_parser.h"
 #include "hovercraft_sim/scenario/sensor_parser.h"
 #include "hovercraft_sim/scenario/version.h"
@@ -48,13 +48,10 @@ std::string massText(const VehicleScenario& vehicle) {
         return std::holds_alternative<MeshShape>(part.shape);
       });
   if (by_numbers) {
-    const Matrix3& I = vehicle.mass_properties.I_BBo_B;
-    return fmt::format(
-        "    mass: {}\n    center_of_mass: {}\n    inertia: {{ixx: {}, iyy: {}, izz: {}, ixy: {}, "
-        "ixz: {}, iyz: {}}}\n",
-        yamlNumber(vehicle.mass_properties.mass), yamlVector(vehicle.mass_properties.p_HB),
-        yamlNumber(I(0, 0)), yamlNumber(I(1, 1)), yamlNumber(I(2, 2)), yamlNumber(I(0, 1)),
-        yamlNumber(I(0, 2)), yamlNumber(I(1, 2)));
+    return fmt::format("    mass: {}\n    center_of_mass: {}\n    inertia: {{{}}}\n",
+                       yamlNumber(vehicle.mass_properties.mass),
+                       yamlVector(vehicle.mass_properties.p_HB),
+                       keysText(kInertiaKeys, vehicle.mass_properties.I_BBo_B));
   }
   std::string parts = "    parts:\n";
   for (const PartScenario& part : vehicle.parts) {
@@ -74,10 +71,7 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
   yaml += cushionYaml(vehicle);
   if (vehicle.visual) yaml += "    " + visualText(*vehicle.visual) + "\n";
   yaml += dragYaml(vehicle);
-  yaml +=
-      fmt::format("    initial: {{position: {}, rpy: {}, velocity: {}, angular_velocity: {}}}\n",
-                  yamlVector(vehicle.initial_p_WB), yamlVector(vehicle.initial_rpy),
-                  yamlVector(vehicle.initial_v_WB), yamlVector(vehicle.initial_w_WB));
+  yaml += "    initial: {" + keysText(kInitialKeys, vehicle) + "}\n";
   return yaml;
 }
 
@@ -85,15 +79,10 @@ std::string vehicleText(const VehicleScenario& vehicle, const Scenario& scenario
 
 std::string toYaml(const Scenario& scenario) {
   const FloatingPointEnvironment environment;
-  std::string yaml = fmt::format(
-      "physics_version: {}\nsoftware: {}\nstep_size: {}\nintegrator: {}\norientation: {}\nmodel: "
-      "{}\n"
-      "gravity: {}\nwind: {}\n{}seed: {}\nvehicles:\n",
-      kPhysicsVersion, yamlText(softwareText()), yamlNumber(scenario.stepSize()),
-      integratorNames()[static_cast<std::size_t>(scenario.integrator)],
-      orientationNames()[static_cast<std::size_t>(scenario.orientation)],
-      modelNames()[static_cast<std::size_t>(scenario.model)], yamlVector(scenario.gravity),
-      yamlVector(scenario.wind), gustsYaml(scenario), scenario.seed);
+  std::string yaml =
+      fmt::format("physics_version: {}\nsoftware: {}\n{}\n{}{}\nvehicles:\n", kPhysicsVersion,
+                  yamlText(softwareText()), keysText(kRunKeys, scenario, "", "\n"),
+                  gustsYaml(scenario), keysText(kSeedKeys, scenario));
   for (const VehicleScenario& vehicle : scenario.vehicles) {
     yaml += vehicleText(vehicle, scenario, true);
   }

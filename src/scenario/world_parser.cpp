@@ -11,19 +11,10 @@
 #include "hovercraft_sim/scenario/scenario_names.h"
 #include "hovercraft_sim/scenario/wall.h"
 #include "hovercraft_sim/scenario/world_builder.h"
+#include "hovercraft_sim/scenario/world_keys.h"
 
 namespace hovercraft {
 namespace {
-
-const NumberRule kShare = {[](double x) { return x >= 0.0 && x <= 1.0; }, "must be from 0 to 1"};
-
-ContactMaterial parseSurface(const ConfigReader& reader) {
-  ContactMaterial surface;
-  surface.restitution = reader.numberOr(0.0, "restitution", kShare);
-  surface.friction = reader.numberOr(0.0, "friction", kNotNegative);
-  surface.stick = reader.flagOr(false, "stick");
-  return surface;
-}
 
 std::vector<std::string> namesOf(const std::vector<MaterialScenario>& materials) {
   std::vector<std::string> names;
@@ -35,22 +26,23 @@ std::vector<std::string> namesOf(const std::vector<MaterialScenario>& materials)
 void parseMaterials(const ConfigReader& reader, WorldScenario& world) {
   if (reader.has("materials")) {
     for (const auto& [name, material] : reader.map("materials").maps()) {
-      material.allowOnly({"restitution", "friction", "stick"});
+      ContactMaterial surface;
+      parseKeys(material, kMaterialKeys, surface);
       if (name == "default") {
-        world.materials[0].surface = parseSurface(material);
+        world.materials[0].surface = surface;
       } else {
-        world.materials.push_back({name, parseSurface(material)});
+        world.materials.push_back({name, surface});
       }
     }
   }
   if (!reader.has("material_pairs")) return;
   const std::vector<std::string> names = namesOf(world.materials);
   for (const ConfigReader& pair : reader.list("material_pairs")) {
-    pair.allowOnly({"first", "second", "restitution", "friction", "stick"});
-    pair.text("first");  // must be there
-    pair.text("second");
-    const MaterialPairScenario law = {pair.choiceOr(0, "first", names),
-                                      pair.choiceOr(0, "second", names), parseSurface(pair)};
+    MaterialPairScenario law;
+    pair.allowOnly(together({{"first", "second"}, keyNames(kMaterialKeys, law.law)}));
+    ChoiceKey("first", names).read(pair, "first", law.first);
+    ChoiceKey("second", names).read(pair, "second", law.second);
+    readKeys(pair, kMaterialKeys, law.law);
     for (const MaterialPairScenario& known : world.material_pairs) {
       if (std::minmax(known.first, known.second) != std::minmax(law.first, law.second)) continue;
       pair.fail("",
@@ -195,10 +187,10 @@ void checkStart(const ConfigReader& reader, const Scenario& scenario) {
                         overlap->a, overlap->b, overlap->depth, world.scene().config().tolerance));
   }
   world.separateTouching(states);
-  if (const auto tooClose = world.tooClose(states)) {
+  if (const auto too_close = world.tooClose(states)) {
     reader.fail("", fmt::format("{} and {} touch at the start and cannot be parted: others are in "
                                 "the way",
-                                tooClose->a, tooClose->b));
+                                too_close->a, too_close->b));
   }
 }
 
@@ -231,11 +223,6 @@ std::string shapeText(const ObstacleScenario& obstacle) {
   if (!obstacle.wall) return hullText(obstacle.hull);
   return fmt::format("{}, position: {}, rpy: {}", wallText(*obstacle.wall),
                      yamlVector(obstacle.hull.p_HS), yamlVector(obstacle.hull.rpy));
-}
-
-std::string surfaceText(const ContactMaterial& surface) {
-  return fmt::format("restitution: {}, friction: {}, stick: {}", yamlNumber(surface.restitution),
-                     yamlNumber(surface.friction), surface.stick ? "true" : "false");
 }
 
 }  // namespace
@@ -309,11 +296,10 @@ void parseWorld(const ConfigReader& top, const ScenarioSource& source, Scenario&
     return;
   }
   const ConfigReader reader = top.map("world");
-  reader.allowOnly(
-      {"tolerance", "rest_speed", "materials", "material_pairs", "obstacles", "bodies"});
   WorldScenario& world = scenario.world.emplace();
-  world.tolerance = reader.numberOr(world.tolerance, "tolerance", kPositive);
-  world.rest_speed = reader.numberOr(world.rest_speed, "rest_speed", kNotNegative);
+  reader.allowOnly(together(
+      {keyNames(kWorldKeys, world), {"materials", "material_pairs", "obstacles", "bodies"}}));
+  readKeys(reader, kWorldKeys, world);
   parseMaterials(reader, world);
   for (VehicleScenario& vehicle : scenario.vehicles) {
     parseSurfaceOf(vehicles.map(vehicle.name), source, world, vehicle);
@@ -337,16 +323,16 @@ std::string surfaceYaml(const VehicleScenario& vehicle, const Scenario& scenario
 std::string worldYaml(const Scenario& scenario) {
   if (!scenario.world) return "";
   const WorldScenario& world = *scenario.world;
-  std::string yaml = fmt::format("world:\n  tolerance: {}\n  rest_speed: {}\n  materials:\n",
-                                 yamlNumber(world.tolerance), yamlNumber(world.rest_speed));
+  std::string yaml = "world:\n" + keysText(kWorldKeys, world, "  ", "\n") + "\n  materials:\n";
   for (const MaterialScenario& material : world.materials) {
-    yaml += fmt::format("    {}: {{{}}}\n", yamlText(material.name), surfaceText(material.surface));
+    yaml += fmt::format("    {}: {{{}}}\n", yamlText(material.name),
+                        keysText(kMaterialKeys, material.surface));
   }
   if (!world.material_pairs.empty()) yaml += "  material_pairs:\n";
   for (const MaterialPairScenario& pair : world.material_pairs) {
-    yaml += fmt::format("    - {{first: {}, second: {}, {}}}\n",
-                        yamlText(world.materials[pair.first].name),
-                        yamlText(world.materials[pair.second].name), surfaceText(pair.law));
+    yaml += fmt::format(
+        "    - {{first: {}, second: {}, {}}}\n", yamlText(world.materials[pair.first].name),
+        yamlText(world.materials[pair.second].name), keysText(kMaterialKeys, pair.law));
   }
   if (!world.obstacles.empty()) yaml += "  obstacles:\n";
   for (const ObstacleScenario& obstacle : world.obstacles) {

@@ -14,19 +14,19 @@
 namespace hovercraft {
 namespace {
 
-std::string scenarioWith(const std::string& sensors, const std::string& model = "planar",
-                         const std::string& rest = "") {
+std::string sensedScenario(const std::string& sensors, const std::string& model = "planar",
+                           const std::string& rest = "") {
   return "step_size: 0.001\nmodel: " + model + "\n" + rest + "vehicles:\n" +
          testing::craftYaml("craft") + sensors;
 }
 
 std::string withSensor(const std::string& sensor) {
-  return scenarioWith("    sensors: {s: {" + sensor + "}}\n");
+  return sensedScenario("    sensors: {s: {" + sensor + "}}\n");
 }
 
 std::string withWorld(const std::string& sensor) {
-  return scenarioWith("    hull: {box: {size: [1, 1, 1]}}\n    sensors: {s: {" + sensor + "}}\n",
-                      "planar", "world: {}\n");
+  return sensedScenario("    hull: {box: {size: [1, 1, 1]}}\n    sensors: {s: {" + sensor + "}}\n",
+                        "planar", "world: {}\n");
 }
 
 std::string sensorComplaint(const std::string& text) {
@@ -34,7 +34,7 @@ std::string sensorComplaint(const std::string& text) {
 }
 
 TEST(SensorScenario, EveryKeyOfEveryKindIsRead) {
-  const Scenario scenario = testing::scenarioOf(scenarioWith(testing::allSensors()));
+  const Scenario scenario = testing::scenarioOf(sensedScenario(testing::allSensors()));
   const VehicleScenario& craft = scenario.vehicles[0];
   EXPECT_EQ(craft.tf, TfSource::kOdometry);
   ASSERT_EQ(craft.sensors.size(), 4U);  // by name: compass, gps, imu, wheel
@@ -71,17 +71,17 @@ TEST(SensorScenario, AnImuHasTheGravityOfTheScenarioOrTheStandardOne) {
     const Scenario scenario = testing::scenarioOf(text);
     return std::get<ImuParameters>(scenario.vehicles[0].sensors[0].model).gravity_W;
   };
-  EXPECT_EQ(gravity_of(scenarioWith(imu)), Vector3(0.0, 0.0, -9.80665));
-  EXPECT_EQ(gravity_of(scenarioWith(imu, "planar", "gravity: [0.5, 0, -9.81]\n")),
+  EXPECT_EQ(gravity_of(sensedScenario(imu)), Vector3(0.0, 0.0, -9.80665));
+  EXPECT_EQ(gravity_of(sensedScenario(imu, "planar", "gravity: [0.5, 0, -9.81]\n")),
             Vector3(0.5, 0.0, -9.81));
-  EXPECT_EQ(gravity_of(scenarioWith(imu, "spatial")), Vector3(0.0, 0.0, 0.0));
+  EXPECT_EQ(gravity_of(sensedScenario(imu, "spatial")), Vector3(0.0, 0.0, 0.0));
   EXPECT_EQ(gravity_of(withSensor("kind: imu, rate: 100, gravity: [0, 0, -1.62]")),
             Vector3(0.0, 0.0, -1.62));
 }
 
 TEST(SensorScenario, WhatIsWrittenParsesToTheSameText) {
   for (const char* model : {"planar", "spatial"}) {
-    const std::string text = scenarioWith(
+    const std::string text = sensedScenario(
         testing::allSensors() + testing::laserSensor() + "    hull: {box: {size: [1, 1, 1]}}\n",
         model, "world: {}\n");
     const std::string written = toYaml(testing::scenarioOf(text));
@@ -97,7 +97,7 @@ TEST(SensorScenario, WhatIsWrittenParsesToTheSameText) {
 }
 
 TEST(SensorScenario, WithoutSensorsNothingIsWritten) {
-  const std::string written = toYaml(testing::scenarioOf(scenarioWith("")));
+  const std::string written = toYaml(testing::scenarioOf(sensedScenario("")));
   EXPECT_EQ(written.find("sensors"), std::string::npos);
   EXPECT_EQ(written.find("tf"), std::string::npos);
 }
@@ -211,18 +211,18 @@ TEST(SensorScenario, AKeyOfAnotherKindIsUnknown) {
 
 TEST(SensorScenario, NamesAndTfHaveRules) {
   const auto named = [](const std::string& name) {
-    return sensorComplaint(scenarioWith("    sensors: {" + name + ": {kind: imu, rate: 100}}\n"));
+    return sensorComplaint(sensedScenario("    sensors: {" + name + ": {kind: imu, rate: 100}}\n"));
   };
   EXPECT_EQ(named("front_imu"), "nothing was thrown");
   EXPECT_NE(named("my-imu").find("the name of a sensor is a ROS name"), std::string::npos);
   EXPECT_NE(named("base_link").find("is its frame: that one is taken"), std::string::npos);
-  EXPECT_NE(sensorComplaint(scenarioWith("    tf: odometry\n"))
+  EXPECT_NE(sensorComplaint(sensedScenario("    tf: odometry\n"))
                 .find("vehicles.craft.tf = odometry: needs a sensor of kind odometry"),
             std::string::npos);
-  EXPECT_NE(sensorComplaint(scenarioWith("    tf: both\n"))
+  EXPECT_NE(sensorComplaint(sensedScenario("    tf: both\n"))
                 .find("vehicles.craft.tf = both: must be one of: truth, odometry, none"),
             std::string::npos);
-  EXPECT_EQ(sensorComplaint(scenarioWith("    tf: none\n")), "nothing was thrown");
+  EXPECT_EQ(sensorComplaint(sensedScenario("    tf: none\n")), "nothing was thrown");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ HOVERCRAFT_PUBLIC bool canBeWind(const Vector3& wind_W);
 /// Whether two finite vectors have the same bits, signs of zeros too.
 bool haveSameBits(const Vector3& a, const Vector3& b);
 
-/// The keys `wind` and `gusts` of a scenario whose step size is known.
+/// The key `gusts` of a scenario whose step size and wind are known.
 /// @throws std::invalid_argument with key path and rule.
 void parseAir(const ConfigReader& top, Scenario& scenario);
 
