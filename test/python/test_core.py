@@ -274,7 +274,10 @@ class BadArguments(unittest.TestCase):
             lambda: simulation.set_state(position=[1e31, 0, 0]), lambda: simulation.set_state(position="abc"),
             lambda: simulation.set_state(orientation=[0, 0, 0, 2]), lambda: simulation.set_state(orientation=[1, 0, 0, 0]),
             lambda: simulation.set_state(velocity=[0, 0, 1]), lambda: simulation.set_state(angular_velocity=[1, 0, 0]),
-            lambda: simulation.set_wind([0, 0]), lambda: simulation.set_wind([nan, 0, 0]), lambda: simulation.set_wind([1e7, 0, 0]),
+            lambda: simulation.set_state(velocity=[1.1e6, 0, 0]), lambda: simulation.set_state(angular_velocity=[0, 0, -1e9]),
+            lambda: simulation.apply_wrench(force=[1e30, 0, 0]), lambda: simulation.apply_wrench(torque=[0, 0, 1e12]),
+            lambda: simulation.apply_wrench(force=[0, 0, 1]), lambda: simulation.apply_wrench(torque=[1, 0, 0]),
+            lambda: simulation.apply_wrench(torque=[0, 1, 0]), lambda: simulation.set_wind([0, 0]), lambda: simulation.set_wind([nan, 0, 0]), lambda: simulation.set_wind([1e7, 0, 0]),
             lambda: simulation.restore("nothing"), lambda: simulation.reset(seed=2**64), lambda: simulation.reset(seed=0.5),
             lambda: hc.Simulation(craft(), seed=2**63), lambda: simulation.restore(
                 hc.Simulation(hc.Scenario.load(ROOT + "/config/mvwt.yaml")).save()),
