@@ -278,9 +278,9 @@ def main():
             raise ValueError(f'--output = {arguments.output}: must not be the file that is read')
         run = read(arguments.run, arguments.vehicle)
         draw(run, arguments.output)
-    except (UnicodeDecodeError, csv.Error) as error:
+    except (UnicodeDecodeError, csv.Error, rosbag.ROSBagException) as error:
         sys.exit(f'plot_run.py: {arguments.run}: {error}')
-    except (ValueError, OSError, rosbag.ROSBagException) as error:
+    except (ValueError, OSError) as error:
         sys.exit(f'plot_run.py: {error}')
     print_summary(run)
 

@@ -29,6 +29,8 @@ def _trajectories(source, name):
                 for vehicle, rows in source.states.items()]
     if isinstance(source, np.ndarray):
         return [_trajectory(name, source, "", True)]
+    if not (isinstance(source, (str, bytes)) or hasattr(source, "__fspath__")):
+        raise ValueError(f"{name}: must be a Run, an array of states, or the name of a CSV of states or of a bag")
     path = _convert.path(source, name)
     return bags().bag_trajectories(path) if is_bag(path) else _core.csv_trajectories(path)
 

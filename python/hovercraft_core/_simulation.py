@@ -197,7 +197,8 @@ class Simulation:
     def step(self, n=1):
         """Makes n steps.
 
-        :raises ValueError: if n is negative or too great, or if the motion diverges: the state is then that before the step.
+        :raises ValueError: if n is negative or too great, or if the motion diverges: the state is then that before
+            the step that failed.
         """
         try:
             self._step(n)
@@ -231,7 +232,8 @@ class Simulation:
         :param duration: s of simulated time, from now.
         :param every: ticks from one output to the next; the first is now.
         :returns: a Run.
-        :raises ValueError: that names what is wrong; also if the motion diverges.
+        :raises ValueError: that names what is wrong; also if the motion diverges: the state is then that before the step that
+            failed.
         """
         rows = self._commands(commands)
         every = _convert.integer(every, "every")

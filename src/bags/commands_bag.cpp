@@ -10,6 +10,7 @@
 
 #include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -19,6 +20,7 @@
 #include "hovercraft_sim/bags/bag_file.h"
 #include "hovercraft_sim/bags/recorded_messages.h"
 #include "hovercraft_sim/messages/conversions.h"
+#include "hovercraft_sim/messages/run_events.h"
 #include "hovercraft_sim/messages/vehicle_messages.h"
 #include "hovercraft_sim/scenario/actuator_topics.h"
 
@@ -35,6 +37,38 @@ std::set<std::string> topicsIn(rosbag::View& view) {
     topics.insert(connection->topic);
   }
   return topics;
+}
+
+/// What asked for an event: a service of the node.
+const char* serviceOf(const hovercraft_sim::RunEvent& event) {
+  switch (event.kind) {
+    case hovercraft_sim::RunEvent::RESET:
+      return "reset";
+    case hovercraft_sim::RunEvent::LOAD:
+      return "load";
+    case hovercraft_sim::RunEvent::SET_STATE:
+      return "set_state";
+    case hovercraft_sim::RunEvent::APPLY_WRENCH:
+      return "apply_wrench";
+    case kSetWind:
+      return "set_wind";
+    default:
+      return "set_actuator";  // readRunEvent() knows no other
+  }
+}
+
+/// The commands alone of a run that something else changed as well make another one.
+void refuseEvents(const std::string& path, const rosbag::Bag& bag) {
+  rosbag::View events(
+      bag, rosbag::TypeQuery(ros::message_traits::DataType<hovercraft_sim::RunEvent>::value()));
+  rosbag::View::iterator first = events.begin();  // what it leads to is its own
+  if (first == events.end()) return;
+  const rosbag::MessageInstance& instance = *first;
+  const auto event = readRunEvent(path, instance);
+  failAt(path, instance,
+         fmt::format("{} at tick {}: commands alone would make another flight; a bag with a "
+                     "reset, a load or another event is for the tool replay",
+                     serviceOf(*event), event->tick));
 }
 
 }  // namespace
@@ -198,6 +232,7 @@ class BagCommandSource::Streams {
           fmt::format("{}: there are no commands in it: must have {}, or {} or one of its engines",
                       path, all.front().applied, all.front().thrust));
     }
+    refuseEvents(path, bag_);
     description_ = fmt::format("{}", fmt::join(chosen_, ", "));
   }
 

@@ -1,6 +1,10 @@
 #include "hovercraft_sim/live/live_run.h"
 
 #include <algorithm>
+#include <exception>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "hovercraft_sim/messages/run_events.h"
@@ -25,11 +29,37 @@ ros::Time LiveRun::sampleStamp(hovercraft::Tick tick) const {
   return stamp;
 }
 
+/// A request that would end the node within a few steps is refused instead.
+void LiveRun::applyOnTrial(const RunEvent& event) {
+  const hovercraft::SimulationState before = simulation_.state();
+  applyEvent(event, simulation_);
+  const hovercraft::SimulationState after = simulation_.state();
+  hovercraft::RunObserver* const observer = simulation_.observer();
+  simulation_.observe(nullptr);
+  std::string failure;
+  try {
+    for (int n = 0; n < kTrialSteps; ++n) simulation_.step();
+  } catch (const std::exception& error) {
+    failure = error.what();
+  }
+  simulation_.observe(observer);
+  simulation_.restore(failure.empty() ? after : before);
+  if (failure.empty()) return;
+  throw std::invalid_argument(
+      fmt::format("it would end the run within {} steps: {}", kTrialSteps, failure));
+}
+
 RunEvent LiveRun::apply(RunEvent event) {
   event.header.stamp = headerStamp();
   event.tick = static_cast<std::uint64_t>(simulation_.tick());
   const std::int64_t now_ns = epoch_ns_ + simulation_.timeNs();
-  applyEvent(event, simulation_);
+  const bool is_of_forces = event.kind == RunEvent::SET_STATE ||
+                            event.kind == RunEvent::APPLY_WRENCH || event.kind == kSetWind;
+  if (is_of_forces) {
+    applyOnTrial(event);
+  } else {
+    applyEvent(event, simulation_);
+  }
   if (event.kind == RunEvent::RESET || event.kind == RunEvent::LOAD) {
     ++episode_;
     events_ = 0;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <ros/console.h>
 #include <ros/package.h>
@@ -119,6 +121,23 @@ hovercraft::Scenario readScenario(const hovercraft::ConfigReader& reader,
       overrides);
 }
 
+/// Topics and parameters of a craft lie below its name, those of the node below its own: its
+/// robot_description would be a parameter of the node, and of the next one of that name.
+void requireOtherNames(const hovercraft::Scenario& scenario, const std::string& node_name) {
+  const std::string own = node_name.substr(node_name.rfind('/') + 1);
+  const auto check = [&](const char* list, const std::vector<hovercraft::VehicleScenario>& bodies) {
+    for (const hovercraft::VehicleScenario& body : bodies) {
+      if (body.name != own) continue;
+      throw std::invalid_argument(
+          fmt::format("{}/scenario: {}.{}: must not have the name of the node, below which its own "
+                      "parameters and topics lie: rename it, or the node (__name:=NAME)",
+                      node_name, list, body.name));
+    }
+  };
+  check("vehicles", scenario.vehicles);
+  if (scenario.world) check("world.bodies", scenario.world->bodies);
+}
+
 void readLockstep(const hovercraft::ConfigReader& reader, NodeConfig& config) {
   config.lockstep = switchOr(config.lockstep, reader, "lockstep");
   config.lockstep_timeout =
@@ -191,6 +210,7 @@ NodeConfig parseNodeConfig(const hovercraft::ConfigNode& parameters, const std::
                     "control_period", "lockstep_timeout", "diagnostic_period"});
   NodeConfig config;
   config.scenario = readScenario(reader, parameters);
+  requireOtherNames(config.scenario, node_name);
   config.publish_every = publishPeriod(reader, config.scenario.stepSize());
   config.frames = readFrames(reader);
   config.truth_odom = readTruthOdom(reader, config);

@@ -139,7 +139,12 @@ void NodeServices::serveStates(ros::NodeHandle& own) {
       }));
   servers_.push_back(serve<hovercraft_sim::Snapshot>(
       node_, own, "load", [this](const auto& request, auto& response) {
-        node_.apply(loadEvent(hovercraft::readSnapshotText(request.file)));
+        const std::string text = hovercraft::readSnapshotText(request.file);  // it names the file
+        try {
+          node_.apply(loadEvent(text));
+        } catch (const std::invalid_argument& error) {
+          throw std::invalid_argument(request.file + ": " + error.what());
+        }
         tellTickAndHash(node_.liveRun(), response);
       }));
 }

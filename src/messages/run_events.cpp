@@ -12,6 +12,7 @@
 #include "hovercraft_sim/scenario/scenario_names.h"
 #include "hovercraft_sim/scenario/world_builder.h"
 #include "hovercraft_sim/sim/command_source.h"
+#include "hovercraft_sim/sim/request_rules.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 namespace hovercraft_ros {
@@ -93,8 +94,7 @@ RunEvent setStateEvent(const hovercraft::Scenario& scenario,
   const Vector3 v_H = fromMessage(request.twist.linear);
   const Vector3 w_H = fromMessage(request.twist.angular);
   requireFinite(p_WH, "pose.position");
-  requireFinite(v_H, "twist.linear");
-  requireFinite(w_H, "twist.angular");
+  hovercraft::requireSettable({v_H, w_H}, {"twist.linear", "twist.angular"});
   require(
       std::abs(hovercraft::norm(q_WH) - 1.0) <= hovercraft::kUnitLength,
       fmt::format("pose.orientation: must have length 1 (it has {:.6g})", hovercraft::norm(q_WH)));
@@ -118,8 +118,9 @@ RunEvent applyWrenchEvent(const hovercraft::Scenario& scenario,
                           const hovercraft_sim::ApplyWrench::Request& request,
                           const TfFrames& frames, hovercraft::Tick tick) {
   vehicleIndex(scenario, request.vehicle);
-  requireFinite(fromMessage(request.wrench.force), "wrench.force");
-  requireFinite(fromMessage(request.wrench.torque), "wrench.torque");
+  hovercraft::requireApplicable(
+      {fromMessage(request.wrench.force), fromMessage(request.wrench.torque)}, scenario.model,
+      {"wrench.force", "wrench.torque"});
   const std::string base_frame = frames.of(request.vehicle);
   require(
       request.frame_id == frames.world || request.frame_id == base_frame,

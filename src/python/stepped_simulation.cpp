@@ -11,6 +11,7 @@
 #include "hovercraft_sim/python/command_list.h"
 #include "hovercraft_sim/scenario/air_parser.h"
 #include "hovercraft_sim/scenario/scenario_parser.h"
+#include "hovercraft_sim/sim/request_rules.h"
 #include "hovercraft_sim/sim/run.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
@@ -28,10 +29,8 @@ void require(bool holds, const std::string& rule) {
   if (!holds) throw std::invalid_argument(rule);
 }
 
-Vector3 finite(const Triple& values, const char* name) {
-  const Vector3 v(values[0], values[1], values[2]);
-  require(v.allFinite(), fmt::format("{}: must be finite", name));
-  return v;
+Vector3 asVector(const Triple& values) {
+  return {values[0], values[1], values[2]};
 }
 
 void requirePlanar(const Quaternion& q, const Vector3& v, const Vector3& w) {
@@ -122,8 +121,8 @@ void SteppedSimulation::applyWrench(const std::string& vehicle, const PushedWren
   using Frame = hovercraft::ExternalWrench::Frame;
   const Lock lock(*this);
   const std::size_t index = craftIndex(*scenario_, vehicle);
-  const hovercraft::Wrench acting = {finite(wrench.force, "force"),
-                                     finite(wrench.torque, "torque")};
+  const hovercraft::Wrench acting = {asVector(wrench.force), asVector(wrench.torque)};
+  hovercraft::requireApplicable(acting, scenario_->model, {"force", "torque"});
   require(wrench.frame == "world" || wrench.frame == "body",
           fmt::format("frame = {}: must be world or body", wrench.frame));
   const std::int64_t duration_ns = nanosecondsOf("duration", wrench.duration);
@@ -139,9 +138,10 @@ void SteppedSimulation::setMotion(const std::string& vehicle, const SetMotion& m
   const hovercraft::FloatingPointEnvironment environment;
   const Lock lock(*this);
   const std::size_t index = craftIndex(*scenario_, vehicle);
-  const Vector3 p_WB = finite(motion.position, "position");
-  const hovercraft::Twist twist = {finite(motion.velocity, "velocity"),
-                                   finite(motion.angular_velocity, "angular_velocity")};
+  const Vector3 p_WB = asVector(motion.position);
+  require(p_WB.allFinite(), "position: must be finite");
+  const hovercraft::Twist twist = {asVector(motion.velocity), asVector(motion.angular_velocity)};
+  hovercraft::requireSettable(twist, {"velocity", "angular_velocity"});
   const Quadruple& q = motion.orientation;
   const Quaternion q_WB = {q[3], Vector3(q[0], q[1], q[2])};
   const double length = hovercraft::norm(q_WB);

@@ -1,6 +1,7 @@
 #include "hovercraft_sim/records/states_csv.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "hovercraft_sim/io/csv_reader.h"
 #include "hovercraft_sim/io/number_text.h"
@@ -42,7 +43,17 @@ StatesCsvWriter::StatesCsvWriter(const std::string& path, const Scenario& scenar
   append(buffer_, fmt::format("time,{}{}\n", is_single ? "" : "vehicle,", kMotionColumns));
 }
 
+StatesCsvWriter::~StatesCsvWriter() {
+  if (!holds_rows_) return;  // a header alone is no run
+  try {
+    flush();
+  } catch (const std::invalid_argument&) {
+    holds_rows_ = false;  // what made the run fail is told already
+  }
+}
+
 void StatesCsvWriter::state(const Simulation& simulation) {
+  holds_rows_ = true;
   for (std::size_t vehicle = 0; vehicle < vehicle_columns_.size(); ++vehicle) {
     appendSeconds(buffer_, simulation.timeNs());
     append(buffer_, vehicle_columns_[vehicle]);
@@ -66,6 +77,7 @@ void StatesCsvWriter::appendRow(const Motion& motion) {
 }
 
 void StatesCsvWriter::flush() {
+  holds_rows_ = false;
   file_.write(buffer_.data(), buffer_.size());
   buffer_.clear();
 }

@@ -74,6 +74,10 @@ std::string makeReport(const ReportRequest& request, std::ostream& terminal) {
   std::vector<std::string> inputs = {request.bag};
   if (!request.other.empty()) inputs.push_back(request.other);
   hovercraft::checkOutputs({{"--output", request.output}}, inputs);
+  if (request.output != "-" && std::filesystem::path(request.output).extension() != ".html") {
+    throw std::invalid_argument(fmt::format(
+        "--output = {}: must end in .html, or be - for the standard output", request.output));
+  }
   makeFolder("--png", request.png);
   makeFolder("--svg", request.svg);
   std::vector<RunData> runs;

@@ -383,7 +383,12 @@ void PilotParser::checkTimeouts() const {
 
 PilotFile parsePilot(const std::string& text, const std::string& source, const Scenario& scenario) {
   const FloatingPointEnvironment environment;
-  const ConfigReader reader(treeOf(text, source), source);
+  const ConfigNode tree = treeOf(text, source);
+  if (tree.isNull()) {
+    throw std::invalid_argument(source + ": must be a map of keys with manoeuvres; it is empty");
+  }
+  if (!tree.isMap()) throw std::invalid_argument(source + ": must be a map of keys");
+  const ConfigReader reader(tree, source);
   return PilotParser(reader, scenario).parse();
 }
 

@@ -293,7 +293,8 @@ ConfigNode snapshotTree(const std::string& text, const std::string& source) {
   try {
     return treeOf(text, source);
   } catch (const std::invalid_argument&) {
-    throw std::invalid_argument(source + ": it is not the YAML of a snapshot: it was changed");
+    throw std::invalid_argument(source +
+                                ": it is not the YAML of a snapshot: it was cut or changed");
   }
 }
 
@@ -308,16 +309,34 @@ void checkVersions(const ConfigReader& reader, bool may_be_older) {
                                              kPhysicsVersion));
 }
 
+/// The scenario is what a snapshot ends with: a file that was cut has a part of it, or nothing.
+void requireEnd(const ConfigNode& snapshot, const std::string& source) {
+  const ConfigNode* const end = snapshot.find("scenario");
+  const bool is_there = end != nullptr && !end->isNull() && !(end->isText() && end->text().empty());
+  if (is_there) return;
+  throw std::invalid_argument(
+      source + ": scenario: the key is missing, with which a snapshot ends: it was cut");
+}
+
 /// Another version may have written the text with other digits or quotes.
-bool isTextOf(const Scenario& scenario, const std::string& text, ScenarioSource source) {
+/// @throws std::invalid_argument if the text is not that of `scenario`.
+void requireTextOf(const Scenario& scenario, const ConfigReader& reader, bool may_be_older) {
+  const std::string& source = reader.source();
+  const std::string text = reader.text("scenario");
   const std::string expected = toYaml(scenario);
-  if (text == expected) return true;
+  if (text == expected) return;
+  std::string parsed;
   try {
-    source.name += ": scenario";
-    return toYaml(parseScenario(text, source)) == expected;
-  } catch (const std::invalid_argument&) {
-    return false;  // its message would quote the text
+    parsed = toYaml(parseScenario(text, {source + ": scenario", "", {}, {}, may_be_older}));
+  } catch (const std::invalid_argument&) {  // its message would quote the text
+    throw std::invalid_argument(source + ": scenario: it is none: the snapshot was cut or changed");
   }
+  if (parsed == expected) return;
+  const std::size_t end = text.find_last_not_of('\n');
+  if (end != std::string::npos && expected.compare(0, end + 1, text, 0, end + 1) == 0) {
+    throw std::invalid_argument(source + ": scenario: it ends too early: the snapshot was cut");
+  }
+  throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
 }
 
 }  // namespace
@@ -325,14 +344,14 @@ bool isTextOf(const Scenario& scenario, const std::string& text, ScenarioSource 
 SimulationState parseSnapshot(const std::string& text, const std::string& source,
                               const Scenario& scenario, bool may_be_older) {
   const FloatingPointEnvironment environment;
-  const ConfigReader reader(snapshotTree(text, source), source, "", false);
+  const ConfigNode tree = snapshotTree(text, source);
+  requireEnd(tree, source);
+  const ConfigReader reader(tree, source, "", false);
   reader.allowOnly({"format", "physics_version", "tick", "seed", "hash", "vehicles", "wrenches",
                     "bodies", "wind", "gusts", "contacts", "sensor_hash", "sensors", "commands",
                     "scenario"});
   checkVersions(reader, may_be_older);
-  if (!isTextOf(scenario, reader.text("scenario"), {source, "", {}, {}, may_be_older})) {
-    throw std::invalid_argument(source + ": scenario: the snapshot belongs to another scenario");
-  }
+  requireTextOf(scenario, reader, may_be_older);
   Simulation check(scenario);
   SimulationState state = parseState(reader, scenario, check);
   check.restore(state);

@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
         "recording of the node, bag of simulate, or any");
     add("other", po::value(&request.other), "a second one, laid over it");
     add("output,o", po::value(&request.output)->default_value(request.output),
-        "the page; - is the standard output");
+        "the page (.html); - is the standard output");
     add("png", po::value(&request.png), "folder for the plots as pictures");
     add("svg", po::value(&request.svg), "folder for the plots as drawings");
     add("help,h", "this text");

@@ -7,6 +7,7 @@
 
 #include <hovercraft_sim/ActuatorCommand.h>
 #include <hovercraft_sim/AppliedCommand.h>
+#include <hovercraft_sim/RunEvent.h>
 #include <hovercraft_sim/ThrustCommand.h>
 #include <rosbag/bag.h>
 #include <std_msgs/Float32.h>
@@ -219,6 +220,40 @@ TEST_F(CommandsBag, EveryBadMessageIsNamedByTopicTimeAndRule) {
       },
       "commands at 1700000002.250000000: the command is for tick 8: must not be before tick 9 of "
       "the one that precedes it");
+}
+
+TEST_F(CommandsBag, ABagOfARunThatMoreThanCommandsChangedIsForReplay) {
+  const auto errorWith = [&](std::uint8_t kind, const std::string& name,
+                             const std::vector<double>& values, bool has_applied) {
+    write([&](rosbag::Bag& bag) {
+      if (has_applied) bag.write("/craft/commands", after(1.0), appliedAt(3, 1.5));
+      if (!has_applied) bag.write("/craft/thrust", after(1.0), thrustOf(1.0, 2.0, 3.0));
+      hovercraft_sim::RunEvent event;
+      event.kind = kind;
+      event.tick = 120;
+      event.pose.orientation.w = 1.0;
+      event.name = name;
+      event.values = values;
+      bag.write("/hovercraft_sim/events", after(2.0), event);
+      event.tick = 130;
+      bag.write("/hovercraft_sim/events", after(3.0), event);
+    });
+    return errorOf(one_);
+  };
+  const auto refusal = [](const std::string& what) {
+    return "c.bag: /hovercraft_sim/events at 1700000002.250000000: " + what +
+           " at tick 120: commands alone would make another flight; a bag with a reset, a load or "
+           "another event is for the tool replay";
+  };
+  using hovercraft_sim::RunEvent;
+  for (const bool has_applied : {true, false}) {
+    EXPECT_EQ(errorWith(RunEvent::RESET, "", {}, has_applied), refusal("reset"));
+    EXPECT_EQ(errorWith(RunEvent::LOAD, "", {}, has_applied), refusal("load"));
+    EXPECT_EQ(errorWith(RunEvent::SET_STATE, "", {}, has_applied), refusal("set_state"));
+    EXPECT_EQ(errorWith(RunEvent::APPLY_WRENCH, "", {}, has_applied), refusal("apply_wrench"));
+    EXPECT_EQ(errorWith(5, "wind", {1.0, 0.0, 0.0}, has_applied), refusal("set_wind"));
+    EXPECT_EQ(errorWith(6, "rear", {0.5, 0.0}, has_applied), refusal("set_actuator"));
+  }
 }
 
 TEST_F(CommandsBag, AFileThatIsNoBagIsReadAsCsv) {

@@ -8,6 +8,7 @@
 #include "hovercraft_sim/live/live_run.h"
 #include "hovercraft_sim/messages/conversions.h"
 #include "hovercraft_sim/messages/run_events.h"
+#include "hovercraft_sim/sim/run_observer.h"
 #include "hovercraft_sim/sim/snapshot.h"
 
 #include "../support/scenario_text.h"
@@ -170,18 +171,118 @@ TEST(RunEvents, SetStateMovesBaseLinkToTheMotionThatWasAsked) {
   EXPECT_LT(hovercraft::norm(hull.w_WH_H - Vector3(0.0, 0.0, 0.9)), 1e-15);
 }
 
+// The drag of this craft, 0.4 N s²/m² in steps of 2 ms, diverges from some 1e4 m/s on.
+TEST(RunEvents, WhatWouldEndTheRunIsRefusedAndChangesNothing) {
+  const Scenario scenario = planarScenario();
+  LiveRun run(scenario, kEpoch);
+  advance(run, 10);
+  const std::uint64_t before = run.simulation().hash();
+  const auto complaint = [&](const hovercraft_sim::RunEvent& event) {
+    return refusal([&] { run.apply(event); });
+  };
+  const std::string start =
+      "it would end the run within 50 steps: vehicles.alpha: the motion diverges (";
+  SetState::Request motion = stateRequest();
+  motion.twist.linear.x = 1e6;
+  EXPECT_EQ(complaint(setStateEvent(scenario, motion)).rfind(start, 0), 0U);
+  ApplyWrench::Request wrench = wrenchRequest();
+  wrench.wrench.force.x = 1e11;
+  EXPECT_EQ(complaint(applyWrenchEvent(scenario, wrench, TfFrames(), 10)).rfind(start, 0), 0U);
+  hovercraft_sim::SetWind::Request wind;
+  wind.wind.x = 1e6;
+  EXPECT_EQ(complaint(setWindEvent(wind)).rfind(start, 0), 0U);
+  EXPECT_EQ(run.simulation().hash(), before);
+  EXPECT_EQ(run.simulation().tick(), 10);
+  EXPECT_EQ(run.place().events, 0U);
+}
+
+TEST(RunEvents, TheTrialOfOneLeavesNoTrace) {
+  const Scenario scenario = parsed(validScenario());
+  LiveRun run(scenario, kEpoch);
+  hovercraft::Simulation plain(scenario);
+  hovercraft::RunCallbacks told;
+  int commands = 0;
+  told.on_applied = [&commands](const hovercraft::Command& /*command*/) { ++commands; };
+  run.simulation().observe(&told);
+  run.simulation().push({0, 0, hovercraft::kAllEngines, {1.0, 0.5, 0.25}});
+  plain.push({0, 0, hovercraft::kAllEngines, {1.0, 0.5, 0.25}});
+  const auto event = applyWrenchEvent(scenario, wrenchRequest(), TfFrames(), 0);
+  run.apply(event);
+  applyEvent(event, plain);
+  EXPECT_EQ(commands, 0);
+  EXPECT_EQ(run.simulation().hash(), plain.hash());
+  advance(run, 100);
+  for (int n = 0; n < 100; ++n) plain.step();
+  EXPECT_EQ(commands, 1);
+  EXPECT_EQ(run.simulation().hash(), plain.hash());
+}
+
+TEST(RunEvents, SpeedsAndForcesHaveBounds) {
+  const Scenario scenario = planarScenario();
+  const auto of_motion = [&scenario](double v, double w) {
+    SetState::Request request = stateRequest();
+    request.twist.linear.x = v;
+    request.twist.angular.z = w;
+    return refusal([&] { setStateEvent(scenario, request); });
+  };
+  EXPECT_EQ(of_motion(-1e6, 1e6), "");
+  EXPECT_EQ(of_motion(1.1e6, 0.0), "twist.linear: must be at most 1e6 m/s, of either sign");
+  EXPECT_EQ(of_motion(0.0, -1e9), "twist.angular: must be at most 1e6 rad/s, of either sign");
+  const auto of_wrench = [&scenario](double force, double torque) {
+    ApplyWrench::Request request = wrenchRequest();
+    request.wrench.force.y = force;
+    request.wrench.torque.z = torque;
+    return refusal([&] { applyWrenchEvent(scenario, request, TfFrames(), 0); });
+  };
+  EXPECT_EQ(of_wrench(-1e11, 1e11), "");
+  EXPECT_EQ(of_wrench(-1e30, 0.0), "wrench.force: must be at most 1e11 N, of either sign");
+  EXPECT_EQ(of_wrench(0.0, 1e12), "wrench.torque: must be at most 1e11 N m, of either sign");
+}
+
+TEST(RunEvents, APlanarCraftIsNotPushedOutOfItsPlane) {
+  const Scenario scenario = planarScenario();
+  const auto complaint = [](const Scenario& of, const Vector3& force, const Vector3& torque) {
+    ApplyWrench::Request request = wrenchRequest();
+    request.wrench.force = toVector3Message(force);
+    request.wrench.torque = toVector3Message(torque);
+    return refusal([&] { applyWrenchEvent(of, request, TfFrames(), 0); });
+  };
+  EXPECT_EQ(complaint(scenario, {1.0, 2.0, 0.0}, {0.0, 0.0, 3.0}), "");
+  EXPECT_EQ(complaint(scenario, {0.0, 0.0, 1.0}, {0.0, 0.0, 0.0}),
+            "wrench.force: the model is planar: z must be 0");
+  for (const Vector3& torque : {Vector3(1e-9, 0.0, 0.0), Vector3(0.0, -1.0, 0.0)}) {
+    EXPECT_EQ(complaint(scenario, {0.0, 0.0, 0.0}, torque),
+              "wrench.torque: the model is planar: x and y must be 0");
+  }
+  EXPECT_EQ(complaint(parsed(validScenario()), {1.0, 2.0, 3.0}, {4.0, 5.0, 6.0}), "");
+}
+
+// What an earlier version has recorded.
+TEST(RunEvents, AReplayAppliesWhatNoRequestMayAsk) {
+  const Scenario scenario = planarScenario();
+  hovercraft::Simulation simulation(scenario);
+  hovercraft_sim::RunEvent event = applyWrenchEvent(scenario, wrenchRequest(), TfFrames(), 0);
+  event.wrench.force.x = 2e11;
+  event.wrench.force.z = 1.0;
+  event.wrench.torque.x = 1.0;
+  EXPECT_EQ(refusal([&] { applyEvent(event, simulation); }), "");
+  event = setStateEvent(scenario, stateRequest());
+  event.twist.linear.x = 1e7;
+  EXPECT_EQ(refusal([&] { applyEvent(event, simulation); }), "");
+}
+
 // 5.5 kg at 1e200 m/s: the square is beyond a double.
 TEST(RunEvents, AMotionWithoutFiniteEnergyIsRefused) {
   const Scenario scenario = parsed(validScenario());
   LiveRun run(scenario, kEpoch);
   const std::uint64_t before = run.simulation().hash();
   const std::string complaint = "pose, twist: the momenta and the energy must be finite";
-  std::vector<SetState::Request> absurd(3, stateRequest());
+  std::vector<hovercraft_sim::RunEvent> absurd(3, setStateEvent(scenario, stateRequest()));
   absurd[0].twist.linear.x = 1e200;
   absurd[1].twist.angular.z = 1e200;
   absurd[2].twist.linear.y = 1.7e308;
-  for (const SetState::Request& request : absurd) {
-    EXPECT_EQ(refusal([&] { run.apply(setStateEvent(scenario, request)); }), complaint);
+  for (const hovercraft_sim::RunEvent& event : absurd) {
+    EXPECT_EQ(refusal([&] { run.apply(event); }), complaint);
   }
   SetState::Request far = stateRequest();
   far.pose.position.y = 1e200;

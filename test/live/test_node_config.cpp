@@ -92,6 +92,24 @@ TEST(NodeConfig, TakesEveryParameter) {
   EXPECT_EQ(config.diagnostic_period, 0.1);
 }
 
+// The robot_description of such a craft would be a parameter of the node.
+TEST(NodeConfig, NothingOfTheScenarioHasTheNameOfTheNode) {
+  const auto complaintOf = [](const std::string& node_name, const std::string& others) {
+    try {
+      parseNodeConfig(parametersWith(others), node_name);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string rule =
+      ": must not have the name of the node, below which its own parameters and topics lie: rename "
+      "it, or the node (__name:=NAME)";
+  EXPECT_EQ(complaintOf("/alpha", ""), "/alpha/scenario: vehicles.alpha" + rule);
+  EXPECT_EQ(complaintOf("/red/alpha", ""), "/red/alpha/scenario: vehicles.alpha" + rule);
+  EXPECT_EQ(complaintOf("/alpha/sim", ""), "");
+}
+
 TEST(NodeConfig, ThePublishRateDividesTheStepRate) {
   EXPECT_EQ(configWith("{publish_rate: 500}").publish_every, 1);
   EXPECT_EQ(configWith("{publish_rate: 250}").publish_every, 2);

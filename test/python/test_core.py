@@ -183,6 +183,8 @@ class Queries(unittest.TestCase):
         self.assertFalse(found["is_within"])
         self.assertEqual(found["position"]["max"], 0.25)
         self.assertTrue(hc.compare(first, moved, tolerance=0.3)["is_within"])
+        with self.assertRaisesRegex(ValueError, "b: must be a Run, an array of states, or the name of a CSV of states or of a bag"):
+            hc.compare(first, 2)
 
     def test_mass_properties_and_closest_say_what_the_tools_say(self):
         np.testing.assert_allclose(np.diag(hc.mass_properties(CRAFT)["inertia"]), [0.0726667, 0.156, 0.2166667])
@@ -274,7 +276,10 @@ class BadArguments(unittest.TestCase):
             lambda: simulation.set_state(position=[1e31, 0, 0]), lambda: simulation.set_state(position="abc"),
             lambda: simulation.set_state(orientation=[0, 0, 0, 2]), lambda: simulation.set_state(orientation=[1, 0, 0, 0]),
             lambda: simulation.set_state(velocity=[0, 0, 1]), lambda: simulation.set_state(angular_velocity=[1, 0, 0]),
-            lambda: simulation.set_wind([0, 0]), lambda: simulation.set_wind([nan, 0, 0]), lambda: simulation.set_wind([1e7, 0, 0]),
+            lambda: simulation.set_state(velocity=[1.1e6, 0, 0]), lambda: simulation.set_state(angular_velocity=[0, 0, -1e9]),
+            lambda: simulation.apply_wrench(force=[1e30, 0, 0]), lambda: simulation.apply_wrench(torque=[0, 0, 1e12]),
+            lambda: simulation.apply_wrench(force=[0, 0, 1]), lambda: simulation.apply_wrench(torque=[1, 0, 0]),
+            lambda: simulation.apply_wrench(torque=[0, 1, 0]), lambda: simulation.set_wind([0, 0]), lambda: simulation.set_wind([nan, 0, 0]), lambda: simulation.set_wind([1e7, 0, 0]),
             lambda: simulation.restore("nothing"), lambda: simulation.reset(seed=2**64), lambda: simulation.reset(seed=0.5),
             lambda: hc.Simulation(craft(), seed=2**63), lambda: simulation.restore(
                 hc.Simulation(hc.Scenario.load(ROOT + "/config/mvwt.yaml")).save()),
@@ -313,6 +318,13 @@ class BadArguments(unittest.TestCase):
         simulation.apply_wrench(force=[1, 0, 0], duration=10.0)
         with self.assertRaisesRegex(ValueError, "diverges"):
             simulation.step(10000)
+        tick, hash_before = simulation.tick, simulation.hash
+        self.assertGreater(tick, 0)  # the steps before the one that failed are made
+        self.assertTrue(np.all(np.isfinite(simulation.state["hovercraft"]["velocity"])))
+        for go_on in (simulation.step, simulation.run):
+            with self.assertRaisesRegex(ValueError, f"not finite after tick {tick}"):
+                go_on()
+            self.assertEqual((simulation.tick, simulation.hash), (tick, hash_before))
 
     def test_a_value_that_fails_changes_no_scenario(self):
         scenario = craft()

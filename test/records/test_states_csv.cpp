@@ -194,11 +194,23 @@ TEST_F(StatesCsv, ARunThatFailsLeavesNoFileThatLooksWhole) {
     for (int n = 0; n < 3000; ++n) writer.state(simulation);  // more than its buffer holds
   }
   EXPECT_EQ(contentOf(path_), "from an earlier run");
-  EXPECT_TRUE(std::filesystem::exists(path_ + ".partial"));
+  const std::string partial = contentOf(path_ + ".partial");
+  EXPECT_EQ(std::count(partial.begin(), partial.end(), '\n'), 1 + 3000) << "each row of the run";
+  EXPECT_EQ(partial.back(), '\n');
   std::filesystem::remove(path_ + ".partial");
+  { const StatesCsvWriter untold(path_, scenarioOf(oneCraftYaml())); }
+  EXPECT_FALSE(std::filesystem::exists(path_ + ".partial")) << "a header alone";
   write(oneCraftYaml(), 0);
   EXPECT_EQ(contentOf(path_).rfind(kHeader, 0), 0U);
   EXPECT_FALSE(std::filesystem::exists(path_ + ".partial"));
+}
+
+TEST_F(StatesCsv, ARunThatDivergesLeavesWhatItWasUpToThere) {
+  std::string yaml = oneCraftYaml() + "    initial: {velocity: [1, 0, 0]}\n";
+  yaml += "    drag: {linear: [1e9, 1e9, 0]}\n";
+  EXPECT_THROW(write(yaml, 1000), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(path_));
+  EXPECT_EQ(contentOf(path_ + ".partial").rfind(std::string(kHeader) + "0,", 0), 0U);
 }
 
 TEST_F(StatesCsv, ALinkToAFileStaysALink) {

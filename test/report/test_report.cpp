@@ -181,6 +181,19 @@ TEST_F(Report, WhatIsBrokenOrTellsNothingGetsASentence) {
   EXPECT_FALSE(std::filesystem::exists(folder_.file("report.html")));
 }
 
+TEST_F(Report, AFileThatIsNoPageIsNotReplaced) {
+  ReportRequest request;
+  request.bag = onlyPoses("/pose");
+  std::ostringstream terminal;
+  for (const char* name : {"notes.txt", "page", "page.html.bak", "page.pdf"}) {
+    request.output = folder_.write(name, "mine");
+    EXPECT_EQ(
+        messageOf([&] { makeReport(request, terminal); }),
+        "--output = " + request.output + ": must end in .html, or be - for the standard output");
+    EXPECT_EQ(contentOf(request.output), "mine");
+  }
+}
+
 TEST_F(Report, PosesThatAreNoNumbersAreLeftOut) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   int count = 0;

@@ -62,9 +62,10 @@ def thrust_publisher():
 
 
 @contextlib.contextmanager
-def another_node():
-    """Of the same scenario, paused."""
+def another_node(overrides=';'):
+    """Of the same scenario with other values, paused."""
     rospy.set_param('/doomed/hovercraft_sim/scenario', rospy.get_param('/hovercraft_sim/scenario'))
+    rospy.set_param('/doomed/hovercraft_sim/set', overrides)
     rospy.set_param('/doomed/hovercraft_sim/paused', True)
     process = subprocess.Popen(['rosrun', 'hovercraft_sim', 'hovercraft_node', '__ns:=/doomed'])
     try:
@@ -215,7 +216,21 @@ class ControlTest(unittest.TestCase):
         twist.linear.x = 1e200
         answer = service('set_state', SetState)('hovercraft', pose, twist)
         self.assertFalse(answer.success)
-        self.assertIn('must be finite', answer.message)
+        self.assertIn('twist.linear: must be at most 1e6 m/s', answer.message)
+        wrench = Wrench()
+        wrench.force.x = 1e11  # in steps of 1 ms its speed diverges
+        answer = service('apply_wrench', ApplyWrench)(
+            vehicle='hovercraft', wrench=wrench, frame_id='world', duration=rospy.Duration(1))
+        self.assertFalse(answer.success)
+        self.assertIn('it would end the run within 50 steps: vehicles.hovercraft: the motion diverges', answer.message)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, 'cut.snapshot')
+            with open(file, 'w', encoding='utf-8') as cut:
+                cut.write('format: 2\nphysics_version: 3\ntick: 5\n')
+            answer = service('load', Snapshot)(file)
+            self.assertFalse(answer.success)
+            self.assertEqual(answer.message, f'{file}: snapshot: scenario: the key is missing, with which a snapshot ends: '
+                                             'it was cut')
         self.assertFalse(service('load', Snapshot)('/no/such/file').success)
         answer = service('load', Snapshot)('/')
         self.assertFalse(answer.success)
@@ -266,20 +281,21 @@ class ControlTest(unittest.TestCase):
         return states[-1]
 
     def test_a_step_that_diverges_is_answered_and_leaves_the_last_good_state(self):
-        self.step(10)
-        wrench = Wrench()
-        wrench.force.x = 1.5e308  # twice that is beyond a double
-        for _ in range(2):
-            self.assertTrue(service('apply_wrench', ApplyWrench)(
-                vehicle='hovercraft', wrench=wrench, frame_id='world', duration=rospy.Duration(1)).success)
-        before = self.step(0)
-        answer = self.step(5)
-        self.assertFalse(answer.success)
-        self.assertIn('the motion diverges', answer.message)
-        after = self.step(0)
-        self.assertEqual((after.tick, after.hash), (before.tick, before.hash))
-        self.assertTrue(self.reset().success)
-        self.assertTrue(self.step(5).success)
+        publisher = rospy.Publisher('/doomed/hovercraft/thrust', ThrustCommand, queue_size=1, latch=True)
+        with another_node('vehicles.hovercraft.drag.linear=[1e9, 1e9, 0]'):  # any motion diverges
+            rospy.wait_for_service('/doomed/hovercraft_sim/step', timeout=DEADLINE)
+            step = rospy.ServiceProxy('/doomed/hovercraft_sim/step', Step)
+            publisher.publish(ThrustCommand(rear=1.0))
+            wait_until(lambda: not step(1).success, 'the step that diverges')
+            before = step(0)
+            answer = step(5)
+            self.assertFalse(answer.success)
+            self.assertIn('the motion diverges', answer.message)
+            after = step(0)
+            self.assertEqual((after.tick, after.hash), (before.tick, before.hash))
+            self.assertTrue(rospy.ServiceProxy('/doomed/hovercraft_sim/reset', Reset)().success)
+            self.assertTrue(step(5).success)
+        publisher.unregister()
 
     def test_commands_that_wait_are_saved_and_come_back(self):
         with thrust_publisher() as publisher, tempfile.TemporaryDirectory() as folder:

@@ -102,8 +102,9 @@ const std::string kChirp =
 INSTANTIATE_TEST_SUITE_P(
     Files, BrokenPlans,
     ::testing::Values(
-        BrokenPlan{"", "must be a map of keys"}, BrokenPlan{"[1, 2]", "must be a map of keys"},
-        BrokenPlan{"{", "plan.yaml"}, BrokenPlan{helmText(), "manoeuvres: the key is missing"},
+        BrokenPlan{"", "plan.yaml: must be a map of keys with manoeuvres; it is empty"},
+        BrokenPlan{"[1, 2]", "plan.yaml: must be a map of keys"}, BrokenPlan{"{", "plan.yaml"},
+        BrokenPlan{helmText(), "manoeuvres: the key is missing"},
         BrokenPlan{helmText() + "manoeuvres: []", "manoeuvres"},
         BrokenPlan{helmText() + "manoeuvres: 3", "manoeuvres = 3: must be a list"},
         BrokenPlan{"speed: 1\n" + planOf(kZigZag), "speed = 1: unknown key"},

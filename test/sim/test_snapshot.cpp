@@ -155,6 +155,16 @@ TEST(Snapshot, OneThatWasChangedIsRefused) {
             std::string::npos);
 }
 
+// From the colon after its first key on, up to the last line of its scenario.
+TEST(Snapshot, OneThatWasCutIsSaidToBeCut) {
+  const Scenario scenario = parsed(validScenario());
+  const std::string text = toSnapshot(underWay(scenario));
+  for (std::size_t size = 12; size < text.size() - 1; ++size) {
+    const std::string complaint = complaintAbout(text.substr(0, size), scenario);
+    ASSERT_NE(complaint.find(" cut"), std::string::npos) << size << ": " << complaint;
+  }
+}
+
 TEST(Snapshot, WhatIsNoSnapshotIsRefused) {
   const Scenario scenario = parsed(validScenario());
   EXPECT_NE(complaintAbout("tick: [", scenario).find("snap.yaml: it is not the YAML of a snapshot"),

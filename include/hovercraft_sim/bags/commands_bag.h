@@ -18,7 +18,8 @@ namespace hovercraft_ros {
 /// at the first tick at or after the time from the first message of the bag to its own receipt.
 class HOVERCRAFT_PUBLIC BagCommandSource : public hovercraft::CommandSource {
  public:
-  /// @throws std::invalid_argument if the file is not a bag or has no command of a vehicle.
+  /// @throws std::invalid_argument if the file is not a bag or has no command of a vehicle, or
+  /// if something besides commands changed the run that it records (RunEvent): its first event.
   BagCommandSource(const std::string& path, const hovercraft::Scenario& scenario);
   ~BagCommandSource() override;
 

@@ -17,6 +17,10 @@ namespace hovercraft_ros {
 /// goes on from where it was.
 class HOVERCRAFT_PUBLIC LiveRun {
  public:
+  /// Where a step is too long for a speed or a force, each step makes the error greater: default
+  /// craft that diverge at all are not finite after 1 to 30.
+  static constexpr int kTrialSteps = 50;
+
   /// @param epoch_ns ROS time of tick 0 of the first episode, ns.
   LiveRun(hovercraft::Scenario scenario, std::int64_t epoch_ns);
 
@@ -39,7 +43,8 @@ class HOVERCRAFT_PUBLIC LiveRun {
 
   /// Applies an event at the current tick (run_events.h) and returns it with its header, number,
   /// tick and episode.
-  /// @throws std::invalid_argument as applyEvent(); nothing has changed then.
+  /// @throws std::invalid_argument as applyEvent(), or if a motion, a wrench or a wind makes the
+  /// motion diverge within kTrialSteps from there; nothing has changed then.
   hovercraft_sim::RunEvent apply(hovercraft_sim::RunEvent event);
 
   /// Lets ROS time go on by one step while the simulation stands: a stamp of its own for the
@@ -47,6 +52,8 @@ class HOVERCRAFT_PUBLIC LiveRun {
   void renewStamp() { epoch_ns_ += simulation_.scenario().step_ns; }
 
  private:
+  void applyOnTrial(const hovercraft_sim::RunEvent& event);
+
   hovercraft::Simulation simulation_;
   std::int64_t epoch_ns_;  // of tick 0 of this episode; below 0 after a load of a long run
   std::uint32_t episode_ = 0;

@@ -22,6 +22,9 @@ class HOVERCRAFT_PUBLIC StatesCsvWriter : public RunObserver {
   /// @throws std::invalid_argument if it cannot be opened for writing.
   StatesCsvWriter(const std::string& path, const Scenario& scenario);
 
+  /// Of a run that failed, the partial file has each row up to there.
+  ~StatesCsvWriter() override;
+
   void state(const Simulation& simulation) override;
   void close() override;
 
@@ -33,6 +36,7 @@ class HOVERCRAFT_PUBLIC StatesCsvWriter : public RunObserver {
   std::vector<std::string> body_columns_;     // `,name` of each loose body
   std::vector<std::string> vehicle_columns_;  // `,name`; nothing for a single vehicle
   fmt::memory_buffer buffer_;
+  bool holds_rows_ = false;  // that are not in the file
 };
 
 /// The trajectories of a file as StatesCsvWriter makes it, one for each vehicle, in the order of

@@ -115,6 +115,7 @@ class HOVERCRAFT_PUBLIC Simulation {
   /// Who is told from now on of commands, contacts and samples; null: nobody.
   /// @param observer outlives the simulation, or its own place here.
   void observe(RunObserver* observer) { observer_ = observer; }
+  RunObserver* observer() const { return observer_; }
 
  private:
   void applyDueCommands();
