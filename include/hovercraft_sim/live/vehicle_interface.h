@@ -76,7 +76,7 @@ class HOVERCRAFT_PUBLIC VehicleInterface {
   /// Hands a command on and counts what becomes of it; no command: it was not finite.
   /// @param rule that a message without a command breaks.
   void receive(const std::optional<hovercraft::Command>& command, const std::string& topic,
-            const std::optional<ros::Time>& stamp, const char* rule = "a thrust must be finite");
+               const std::optional<ros::Time>& stamp, const char* rule = "a thrust must be finite");
 
   const LiveRun& run_;
   std::size_t vehicle_;

@@ -193,10 +193,9 @@ constexpr double kKeptBoundFactor = 1.5;
 /// Bound on how often a step is begun anew: each time with at least twice the motion bound.
 constexpr int kMaxRestarts = 20;
 
-/// Share (-) of the wanted gap from which on a pair counts as set apart.
+/// Share (-) of the wanted gap from which on a pair counts as set apart, and bound on the sweeps of
+/// separateTouching(): the height of a stack squared, for fifty bodies.
 constexpr double kSeparatedShare = 0.9;
-
-/// Bound on the sweeps of separateTouching(): the height of a stack squared, for fifty bodies.
 constexpr int kMaxSeparationSweeps = 2500;
 
 }  // namespace hovercraft
