@@ -156,8 +156,7 @@ constexpr int kImpactCuts = 2;
 /// What is left (-) of the distance that counts as an impact with each such cut.
 constexpr double kCutShare = 0.7;
 
-/// Most faces of an obstacle that are looked at one by one for one that has the body on its outer
-/// side: as many comparisons cost a twentieth of a query of closest features.
+/// Most faces of an obstacle that are looked at one by one: a twentieth of the cost of a query.
 constexpr int kFewFaces = 32;
 
 /// Neighbours are looked for this much farther than a body's own size (-), and ten steps ahead: so
