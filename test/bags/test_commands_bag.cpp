@@ -223,8 +223,8 @@ TEST_F(CommandsBag, EveryBadMessageIsNamedByTopicTimeAndRule) {
 }
 
 TEST_F(CommandsBag, ABagOfARunThatMoreThanCommandsChangedIsForReplay) {
-  const auto errorWith = [&](std::uint8_t kind, const std::string& name,
-                             const std::vector<double>& values, bool has_applied) {
+  const auto error_with = [&](std::uint8_t kind, const std::string& name,
+                              const std::vector<double>& values, bool has_applied) {
     write([&](rosbag::Bag& bag) {
       if (has_applied) bag.write("/craft/commands", after(1.0), appliedAt(3, 1.5));
       if (!has_applied) bag.write("/craft/thrust", after(1.0), thrustOf(1.0, 2.0, 3.0));
@@ -247,12 +247,12 @@ TEST_F(CommandsBag, ABagOfARunThatMoreThanCommandsChangedIsForReplay) {
   };
   using hovercraft_sim::RunEvent;
   for (const bool has_applied : {true, false}) {
-    EXPECT_EQ(errorWith(RunEvent::RESET, "", {}, has_applied), refusal("reset"));
-    EXPECT_EQ(errorWith(RunEvent::LOAD, "", {}, has_applied), refusal("load"));
-    EXPECT_EQ(errorWith(RunEvent::SET_STATE, "", {}, has_applied), refusal("set_state"));
-    EXPECT_EQ(errorWith(RunEvent::APPLY_WRENCH, "", {}, has_applied), refusal("apply_wrench"));
-    EXPECT_EQ(errorWith(5, "wind", {1.0, 0.0, 0.0}, has_applied), refusal("set_wind"));
-    EXPECT_EQ(errorWith(6, "rear", {0.5, 0.0}, has_applied), refusal("set_actuator"));
+    EXPECT_EQ(error_with(RunEvent::RESET, "", {}, has_applied), refusal("reset"));
+    EXPECT_EQ(error_with(RunEvent::LOAD, "", {}, has_applied), refusal("load"));
+    EXPECT_EQ(error_with(RunEvent::SET_STATE, "", {}, has_applied), refusal("set_state"));
+    EXPECT_EQ(error_with(RunEvent::APPLY_WRENCH, "", {}, has_applied), refusal("apply_wrench"));
+    EXPECT_EQ(error_with(5, "wind", {1.0, 0.0, 0.0}, has_applied), refusal("set_wind"));
+    EXPECT_EQ(error_with(6, "rear", {0.5, 0.0}, has_applied), refusal("set_actuator"));
   }
 }
 
