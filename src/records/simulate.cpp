@@ -230,10 +230,6 @@ std::vector<std::string> filesOf(const SimulateRequest& request,
 std::unique_ptr<RunOutputs> openOutputs(const SimulateRequest& request, const Scenario& scenario,
                                         const std::vector<std::string>& read, RosFiles& ros) {
   checkOutputs(outputsOf(request), read);
-  if (!request.contacts.empty() && !scenario.world) {
-    throw std::invalid_argument(
-        fmt::format("--contacts = {}: needs a world: in the scenario", request.contacts));
-  }
   auto outputs = std::make_unique<RunOutputs>();
   outputs->add(openOutput(request.output, scenario, request.truth_odom, ros), request.every);
   if (!request.contacts.empty()) {

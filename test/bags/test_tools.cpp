@@ -277,17 +277,6 @@ TEST_F(Tools, PlotRunNamesAFileThatIsNoBag) {
       << notes.output;
 }
 
-TEST_F(Tools, SimulateWritesNoContactsOfAScenarioWhereNothingMeets) {
-  folder_.write("s.yaml", oneCraftYaml());
-  const Outcome refused = run("simulate {}s.yaml -d 0.1 -o {}a.csv --contacts {}c.csv");
-  EXPECT_EQ(refused.status, 1);
-  EXPECT_EQ(refused.output, "simulate: --contacts = " + folder_.file("c.csv") +
-                                ": needs a world: in the scenario\n");
-  for (const char* name : {"a.csv", "a.csv.partial", "c.csv", "c.csv.partial"}) {
-    EXPECT_FALSE(std::filesystem::exists(folder_.file(name))) << name;
-  }
-}
-
 TEST_F(Tools, MassPropertiesOfAMeshAndOfAScenario) {
   // A cube of edge a = 1 m: I = m a²/6.
   const Outcome mesh = run("mass_properties test/data/cube.obj --mass 12 --json");
