@@ -1,6 +1,7 @@
 #include "hovercraft_sim/world/island.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "hovercraft_sim/collision/time_of_impact.h"
@@ -8,6 +9,16 @@
 #include "hovercraft_sim/math/index.h"
 
 namespace hovercraft {
+namespace {
+
+/// Whether the squares of its velocities and accelerations are numbers.
+bool isFinite(const StepMotion& motion) {
+  return std::isfinite(squaredNorm(motion.v_WB) + squaredNorm(motion.a_WB) +
+                       squaredNorm(motion.w_WB) + squaredNorm(motion.alpha_WB));
+}
+
+}  // namespace
+
 void Island::begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
                    const std::vector<BodyState>& states, const std::vector<BodyState>& ends,
                    const std::vector<ContactCache>& contacts) {
@@ -177,6 +188,11 @@ bool Island::firstImpact(double duration, double share, double& time) const {
   return any;
 }
 
+double Island::lose(const IslandMember& member, double now) {
+  lost_ = member.index;
+  return now;
+}
+
 /// Moves all bodies until the end of the step or the first impact. @returns the time then, s.
 double Island::advance(double now) {
   const double h = scene_.config().step;
@@ -189,6 +205,7 @@ double Island::advance(double now) {
       const StepInputs& inputs = inputs_[at(member.index)];
       member.end = moved(member, now, to, member.contact);
       member.ends_freely = false;
+      if (!isInReach(member.end)) return lose(member, now);
       StepMotion& motion = member.motion;
       const Vector3& p_end = positionOf(member.end);
       motion = motionBetween(member.pose.p_AB, orientationOf(member.state), p_end,
@@ -196,6 +213,7 @@ double Island::advance(double now) {
       const Twist before = scene_.twistAt(member.index, member.state, inputs, now);
       const Twist after = scene_.twistAt(member.index, member.end, inputs, to);
       motion.bend(after.v_WB - before.v_WB, after.w_WB - before.w_WB, duration);
+      if (!isFinite(motion)) return lose(member, now);
     }
     double time = duration;
     if (!firstImpact(duration, share, time)) {
@@ -252,6 +270,7 @@ bool Island::run() {
       clearForces();
     }
     const double then = advance(now);
+    if (lost_ >= 0) return false;
     stuck_ = !(then > now);
     now = then;
     if (now >= h) return true;

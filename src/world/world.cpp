@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "hovercraft_sim/math/contact_tolerances.h"
 #include "hovercraft_sim/math/floating_point_environment.h"
@@ -202,7 +203,10 @@ bool World::stepGroups(const std::vector<StepInputs>& inputs, const std::vector<
     if (group_[first] != group || !listGroup(group)) continue;
     Island island(scene_, inputs, scratch_, result.records);
     island.begin(group_bodies_, group_pairs_, states, result.states, contacts);
-    if (!island.run()) ++cut_off_;
+    const bool done = island.run();
+    lost_ = island.lost();
+    if (lost_ != kNone) return true;
+    if (!done) ++cut_off_;
     enough = collectIsland(result) && enough;
   }
   return enough;
@@ -244,6 +248,7 @@ int World::step(const std::vector<StepInputs>& inputs, const std::vector<BodySta
     was_clear_ = near_.empty();
     done = was_clear_ || stepGroups(inputs, states, contacts, result);
   }
+  if (lost_ != kNone) return std::exchange(lost_, kNone);
   stalls_ += cut_off_ + (done ? 0 : 1);
   for (std::size_t i = 0; i < states.size(); ++i) {
     if (!isInReach(result.states[i])) return static_cast<int>(i);

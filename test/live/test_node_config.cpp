@@ -94,7 +94,7 @@ TEST(NodeConfig, TakesEveryParameter) {
 
 // The robot_description of such a craft would be a parameter of the node.
 TEST(NodeConfig, NothingOfTheScenarioHasTheNameOfTheNode) {
-  const auto complaintOf = [](const std::string& node_name, const std::string& others) {
+  const auto complaint_of = [](const std::string& node_name, const std::string& others) {
     try {
       parseNodeConfig(parametersWith(others), node_name);
     } catch (const std::invalid_argument& error) {
@@ -105,9 +105,9 @@ TEST(NodeConfig, NothingOfTheScenarioHasTheNameOfTheNode) {
   const std::string rule =
       ": must not have the name of the node, below which its own parameters and topics lie: rename "
       "it, or the node (__name:=NAME)";
-  EXPECT_EQ(complaintOf("/alpha", ""), "/alpha/scenario: vehicles.alpha" + rule);
-  EXPECT_EQ(complaintOf("/red/alpha", ""), "/red/alpha/scenario: vehicles.alpha" + rule);
-  EXPECT_EQ(complaintOf("/alpha/sim", ""), "");
+  EXPECT_EQ(complaint_of("/alpha", ""), "/alpha/scenario: vehicles.alpha" + rule);
+  EXPECT_EQ(complaint_of("/red/alpha", ""), "/red/alpha/scenario: vehicles.alpha" + rule);
+  EXPECT_EQ(complaint_of("/alpha/sim", ""), "");
 }
 
 TEST(NodeConfig, ThePublishRateDividesTheStepRate) {

@@ -65,8 +65,11 @@ class Island {
   void begin(const std::vector<std::int32_t>& bodies, const std::vector<ScenePair>& pairs,
              const std::vector<BodyState>& states, const std::vector<BodyState>& ends,
              const std::vector<ContactCache>& contacts);
-  /// Runs the events of the step. @returns false if their bound cut off the rest of it.
+  /// Runs the events of the step. @returns false if their bound cut off the rest of it, or a body
+  /// is lost.
   bool run();
+  /// The body that came out of reach on the way (isInReach()), where run() ended; -1: none.
+  std::int32_t lost() const { return lost_; }
 
  private:
   /// What a step without contact would do to a point of a pair.
@@ -94,6 +97,7 @@ class Island {
   void applyForces(double now, double left);
   bool restsOnWhole(const IslandLink& link) const;
   double advance(double now);
+  double lose(const IslandMember& member, double now);
   bool firstImpact(double duration, double share, double& time) const;
   BodyState moved(const IslandMember& member, double from, double to, const Wrench& contact) const;
   double restSpeed(const IslandLink& link) const;
@@ -115,6 +119,7 @@ class Island {
   const std::vector<StepInputs>& inputs_;
   IslandScratch& s_;
   std::vector<ContactRecord>& records_;
+  std::int32_t lost_ = -1;
   double now_ = 0.0;      // s, from the start of the step: where the piece begins
   bool touched_ = false;  // some pair touches in this piece
   bool stuck_ = false;    // the last piece had no length
