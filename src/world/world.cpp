@@ -29,6 +29,13 @@ double gapOf(const AxisAlignedBox& a, const AxisAlignedBox& b) {
   return gap;
 }
 
+/// kNone if all are within.
+int firstOutOfReach(const std::vector<BodyState>& states) {
+  const auto found = std::find_if(states.begin(), states.end(),
+                                  [](const BodyState& state) { return !isInReach(state); });
+  return found == states.end() ? World::kNone : static_cast<int>(found - states.begin());
+}
+
 }  // namespace
 
 World::World(WorldConfig config, std::vector<WorldBody> bodies,
@@ -250,9 +257,8 @@ int World::step(const std::vector<StepInputs>& inputs, const std::vector<BodySta
   }
   if (lost_ != kNone) return std::exchange(lost_, kNone);
   stalls_ += cut_off_ + (done ? 0 : 1);
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    if (!isInReach(result.states[i])) return static_cast<int>(i);
-  }
+  const int out = firstOutOfReach(result.states);
+  if (out != kNone) return out;
   std::sort(result.contacts.begin(), result.contacts.end(),
             [](const ContactCache& x, const ContactCache& y) {
               return x.a < y.a || (x.a == y.a && x.b < y.b);
