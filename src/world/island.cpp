@@ -188,41 +188,47 @@ bool Island::firstImpact(double duration, double share, double& time) const {
   return any;
 }
 
-double Island::lose(const IslandMember& member, double now) {
-  lost_ = member.index;
-  return now;
+/// Flies all bodies over a piece of the step: their ends, and the motions between. @returns false
+/// if one comes out of reach, which is lost.
+bool Island::flyPiece(double from, double to) {
+  const double duration = to - from;
+  for (IslandMember& member : s_.members) {
+    const StepInputs& inputs = inputs_[at(member.index)];
+    member.end = moved(member, from, to, member.contact);
+    member.ends_freely = false;
+    if (isInReach(member.end)) {
+      member.motion = motionBetween(member.pose.p_AB, orientationOf(member.state),
+                                    positionOf(member.end), orientationOf(member.end), duration);
+      const Twist before = scene_.twistAt(member.index, member.state, inputs, from);
+      const Twist after = scene_.twistAt(member.index, member.end, inputs, to);
+      member.motion.bend(after.v_WB - before.v_WB, after.w_WB - before.w_WB, duration);
+      if (isFinite(member.motion)) continue;
+    }
+    lost_ = member.index;
+    return false;
+  }
+  return true;
+}
+
+/// Goes on from the ends of a piece. @param duration of it, s.
+void Island::takeEnds(double duration) {
+  for (IslandMember& member : s_.members) {
+    member.travelled += scene_.motionBoundOf(at(member.index), member.state, member.end, duration);
+    member.state = member.end;
+    member.pose = poseOf(member.state);
+  }
 }
 
 /// Moves all bodies until the end of the step or the first impact. @returns the time then, s.
 double Island::advance(double now) {
-  const double h = scene_.config().step;
-  double to = h;
+  double to = scene_.config().step;
   double share = 1.0;
   for (int cut = 0; cut < kMaxCuts; ++cut) {
     const double duration = to - now;
-    if (!(duration > 0.0)) return now;
-    for (IslandMember& member : s_.members) {
-      const StepInputs& inputs = inputs_[at(member.index)];
-      member.end = moved(member, now, to, member.contact);
-      member.ends_freely = false;
-      if (!isInReach(member.end)) return lose(member, now);
-      StepMotion& motion = member.motion;
-      const Vector3& p_end = positionOf(member.end);
-      motion = motionBetween(member.pose.p_AB, orientationOf(member.state), p_end,
-                             orientationOf(member.end), duration);
-      const Twist before = scene_.twistAt(member.index, member.state, inputs, now);
-      const Twist after = scene_.twistAt(member.index, member.end, inputs, to);
-      motion.bend(after.v_WB - before.v_WB, after.w_WB - before.w_WB, duration);
-      if (!isFinite(motion)) return lose(member, now);
-    }
+    if (!(duration > 0.0) || !flyPiece(now, to)) return now;
     double time = duration;
     if (!firstImpact(duration, share, time)) {
-      for (IslandMember& member : s_.members) {
-        member.travelled +=
-            scene_.motionBoundOf(at(member.index), member.state, member.end, duration);
-        member.state = member.end;
-        member.pose = poseOf(member.state);
-      }
+      takeEnds(duration);
       return to;
     }
     to = now + (cut < kImpactCuts ? time : std::min(time, 0.5 * duration));

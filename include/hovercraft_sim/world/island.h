@@ -97,7 +97,8 @@ class Island {
   void applyForces(double now, double left);
   bool restsOnWhole(const IslandLink& link) const;
   double advance(double now);
-  double lose(const IslandMember& member, double now);
+  bool flyPiece(double from, double to);
+  void takeEnds(double duration);
   bool firstImpact(double duration, double share, double& time) const;
   BodyState moved(const IslandMember& member, double from, double to, const Wrench& contact) const;
   double restSpeed(const IslandLink& link) const;
