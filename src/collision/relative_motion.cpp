@@ -116,12 +116,12 @@ double RelativeMotion::clearTimeOfEdges(const ClosestFeatures& now, double t, do
 /// grows no faster than by Grönwall's bound, and exp(x) <= 1 + 2 x up to 1. An edge along the one
 /// axis of all turns keeps its slope: that is what holds in the planar model, where upright edges
 /// are level with faces for ever.
-double RelativeMotion::slopeCurvature(const Side& face_side, const Side& other, const Vector3& e,
+/// @param turning the side that turns faster. @param wobble bound on |w'| but for the angular
+/// accelerations. @param swept |w × e| now.
+double RelativeMotion::slopeCurvature(const Side& turning, double wobble, const Vector3& e,
                                       double swept) const {
-  const double wobble = norm(cross(face_side.fastest, other.fastest));
   if (spin_up_ > 0.0) {
     if (wobble > 0.0) return wobble + spin_up_ + spin_ * spin_;
-    const Side& turning = other.spin > face_side.spin ? other : face_side;
     return (spin_up_ + spin_ * spin_) * (norm(cross(turning.fastest, e)) / turning.spin);
   }
   const double angle = spin_ * duration_;
@@ -138,6 +138,8 @@ double RelativeMotion::timeLowest(const Side& face_side, const Side& other, cons
   const auto& corner = data.vertices[static_cast<std::size_t>(vertex)];
   if (corner.fan_count > PolyhedronData::kLongLoop) return 0.0;
   const Vector3 w = other.motion.angularVelocity(t) - face_side.motion.angularVelocity(t);
+  const double wobble = norm(cross(face_side.fastest, other.fastest));
+  const Side& turning = other.spin > face_side.spin ? other : face_side;
   double least = kNever;
   for (std::int32_t i = corner.fan_begin; i < corner.fan_begin + corner.fan_count; ++i) {
     const Vector3 e = times(X_WV.R_AB, data.fan[static_cast<std::size_t>(i)].direction);
@@ -145,7 +147,7 @@ double RelativeMotion::timeLowest(const Side& face_side, const Side& other, cons
     const double slope = dot(up, e);
     if (slope < 0.0) return 0.0;
     least = std::min(least, earliestZero(slope, -dot(up, swept),
-                                         slopeCurvature(face_side, other, e, norm(swept))));
+                                         slopeCurvature(turning, wobble, e, norm(swept))));
   }
   return least;
 }

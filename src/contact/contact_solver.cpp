@@ -225,8 +225,12 @@ int ContactSolver::solve(const Limits& limits) {
   sets.are_tried = canSolveActiveSet();
   for (int sweeps = 1;; ++sweeps) {
     const Change change = sweep();
-    const double above = std::max(limits.active_set_above, roundingOfActiveSets());
-    const double tolerance = sets.are_tried ? std::min(limits.tolerance, above) : limits.tolerance;
+    double above = limits.active_set_above;
+    double tolerance = limits.tolerance;
+    if (sets.are_tried) {
+      above = std::max(above, roundingOfActiveSets());
+      tolerance = std::min(tolerance, above);
+    }
     const bool solved = change.largest <= tolerance &&
                         (sweeps >= limits.least_sweeps || change.largest <= kNoChange);
     // After a sweep that changed nothing all that follow change nothing.

@@ -56,8 +56,7 @@ class RelativeMotion {
                            const Instant& instant) const;
   double timeLowest(const Side& face_side, const Side& other, const Vector3& up, const Pose& X_WV,
                     int vertex, double t) const;
-  double slopeCurvature(const Side& face_side, const Side& other, const Vector3& e,
-                        double swept) const;
+  double slopeCurvature(const Side& turning, double wobble, const Vector3& e, double swept) const;
   double closingOfWitnesses(const ClosestFeatures& now, double t, const Instant& instant) const;
   double curvatureAcross(const Side& side, const Vector3& n) const;
   /// Bound on the acceleration, m/s², of a body's points in the axes of the other one: inertial,
