@@ -189,21 +189,19 @@ bool Island::firstImpact(double duration, double share, double& time) const {
 }
 
 /// Flies all bodies over a piece of the step: their ends, and the motions between. @returns false
-/// if one comes out of reach, which is lost.
+/// if one of these is not finite: its body is lost.
 bool Island::flyPiece(double from, double to) {
   const double duration = to - from;
   for (IslandMember& member : s_.members) {
     const StepInputs& inputs = inputs_[at(member.index)];
     member.end = moved(member, from, to, member.contact);
     member.ends_freely = false;
-    if (isInReach(member.end)) {
-      member.motion = motionBetween(member.pose.p_AB, orientationOf(member.state),
-                                    positionOf(member.end), orientationOf(member.end), duration);
-      const Twist before = scene_.twistAt(member.index, member.state, inputs, from);
-      const Twist after = scene_.twistAt(member.index, member.end, inputs, to);
-      member.motion.bend(after.v_WB - before.v_WB, after.w_WB - before.w_WB, duration);
-      if (isFinite(member.motion)) continue;
-    }
+    member.motion = motionBetween(member.pose.p_AB, orientationOf(member.state),
+                                  positionOf(member.end), orientationOf(member.end), duration);
+    const Twist before = scene_.twistAt(member.index, member.state, inputs, from);
+    const Twist after = scene_.twistAt(member.index, member.end, inputs, to);
+    member.motion.bend(after.v_WB - before.v_WB, after.w_WB - before.w_WB, duration);
+    if (isFinite(member.motion)) continue;
     lost_ = member.index;
     return false;
   }

@@ -103,6 +103,16 @@ TEST(SweptBox, HoldsEveryVertexAtEveryTime) {
   }
 }
 
+// It ends as it began, and was elsewhere in between.
+TEST(SweptBox, HoldsABodyThatTurnsToAndFro) {
+  const ConvexPolyhedron rod = boxPolyhedron(Vector3(2.0, 0.02, 0.02));
+  StepMotion motion;
+  motion.bend(Vector3::Zero(), Vector3(0.0, 0.0, 0.4), 0.5);
+  const Vector3 tip = transform(motion.at(0.25), Vector3(1.0, 0.0, 0.0));
+  EXPECT_LT(tip.y(), -0.02);
+  EXPECT_TRUE(sweptBox(rod, motion, 0.5).overlaps({tip, tip}));
+}
+
 // At rest the box is that of the body, to rounding.
 TEST(SweptBox, OfABodyAtRestIsTight) {
   const AxisAlignedBox box = sweptBox(boxPolyhedron(Vector3(2, 4, 6)), StepMotion(), 1.0);

@@ -247,6 +247,47 @@ TEST(TimeOfImpact, AVertexThatTurnsBackInTimeHitsNothing) {
   }
 }
 
+/// At rest, and turning faster and faster from now on. @param alpha rad/s².
+StepMotion beginning(const Vector3& p, const Vector3& alpha) {
+  StepMotion motion = moving(p, Vector3(0, 0, 0));
+  motion.alpha_WB = alpha;
+  return motion;
+}
+
+// A tip 1 m from the middle falls 1 mm after alpha t²/2 = 1e-3. Nothing moves when the search
+// begins.
+TEST(TimeOfImpact, ARodThatBeginsToTurnHitsInItsTime) {
+  const ConvexPolyhedron plate = boxPolyhedron(Vector3(10, 10, 1));
+  const ConvexPolyhedron rod = boxPolyhedron(Vector3(2, 0.02, 0.02));
+  for (const ImpactMethod method : kMethods) {
+    const TimeOfImpact impact =
+        timeOfImpact(plate, StepMotion(), rod, beginning(Vector3(0, 0, 0.511), Vector3(0, 100, 0)),
+                     {0.01, 1e-8, method});
+    ASSERT_EQ(impact.status, ImpactStatus::kImpact);
+    EXPECT_NEAR(impact.time, std::sqrt(2e-5), 1e-6);
+  }
+}
+
+// It leans on its lower side by 1 mm, begins to turn back, and hits with the other side, which is
+// level with the first after alpha t²/2 = 1e-3; also where the plate turns about its normal.
+TEST(TimeOfImpact, ABoxThatBeginsToTurnHitsWithItsOtherSide) {
+  const ConvexPolyhedron plate = boxPolyhedron(Vector3(10, 10, 1));
+  const ConvexPolyhedron box = boxPolyhedron(Vector3(1, 1, 1));
+  StepMotion motion = beginning(Vector3(0, 0, 1.001), Vector3(0, 100, 0));
+  motion.q_WB = quaternionFromAxisAngle(Vector3::UnitY(), -1e-3);
+  for (const double spin : {0.0, 0.1}) {
+    const StepMotion below = moving(Vector3(0, 0, 0), Vector3(0, 0, 0), Vector3(0, 0, spin));
+    for (const ImpactMethod method : kMethods) {
+      const TimeOfImpact impact = timeOfImpact(plate, below, box, motion, {0.01, 1e-8, method});
+      ASSERT_EQ(impact.status, ImpactStatus::kImpact) << spin;
+      EXPECT_EQ(impact.closest.status, Proximity::kSeparated);
+      // sin a + cos a = 1.002 of its angle a: 2 mm + a²/2.
+      const double angle = 2e-3 + 2e-6;
+      EXPECT_NEAR(impact.time, std::sqrt(2.0 * (angle + 1e-3) / 100.0), 1e-6) << spin;
+    }
+  }
+}
+
 TEST(TimeOfImpact, AnApexOfManyEdgesIsNoReasonToComeLate) {
   const ConvexPolyhedron plate = boxPolyhedron(Vector3(60, 60, 1));
   const ConvexPolyhedron pyramid = flatPyramid();

@@ -336,7 +336,7 @@ TEST(World, AFreePairThatMeetsKeepsMomentumAndAngularMomentum) {
 }
 
 // Contact asked for the closest features of what no longer had a place: an error of the program.
-TEST(World, ABodyThatComesOutOfReachInAnImpactIsNamed) {
+TEST(World, ABodyWhoseMotionIsNoLongerFiniteInAnImpactIsNamed) {
   for (const bool spins : {false, true}) {
     TestWorld world;
     world.watch = false;

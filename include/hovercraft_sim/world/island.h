@@ -68,7 +68,7 @@ class Island {
   /// Runs the events of the step. @returns false if their bound cut off the rest of it, or a body
   /// is lost.
   bool run();
-  /// The body that came out of reach on the way (isInReach()), where run() ended; -1: none.
+  /// The body whose motion was no longer finite, where run() ended; -1: none.
   std::int32_t lost() const { return lost_; }
 
  private:

@@ -135,7 +135,7 @@ class HOVERCRAFT_PUBLIC World {
   IslandScratch scratch_;
   std::int64_t stalls_ = 0;
   std::int64_t cut_off_ = 0;  // islands of this step that their bound cut off
-  int lost_ = kNone;          // a body that came out of reach in one of them
+  int lost_ = kNone;          // a body that was lost in one of them
 };
 
 }  // namespace hovercraft
