@@ -21,11 +21,28 @@ namespace {
 struct Solid {
   double volume = 0.0;       // m³
   double surface = 0.0;      // m²
-  double uncertainty = 0.0;  // m³: the surface times the rounding of the greatest coordinate
+  double uncertainty = 0.0;  // m³: by rounded coordinates, or by the sum itself
   double greatest = 0.0;     // coordinate, m
   Vector3 low;               // corners of the box, m
   Vector3 high;
 };
+
+/// What the sum of signedVolume() may be off by, m³: each product of three lengths by the roundings
+/// of its factors. It counts where faces are small beside their distance from the middle: slivers,
+/// or polygons that go there and back.
+double roundingOfSum(const PolygonMesh& mesh, const Vector3& middle) {
+  double products = 0.0;
+  for (const std::vector<int>& face : mesh.faces) {
+    const double a = norm(mesh.vertices[static_cast<std::size_t>(face[0])] - middle);
+    double b = norm(mesh.vertices[static_cast<std::size_t>(face[1])] - middle);
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      const double c = norm(mesh.vertices[static_cast<std::size_t>(face[i])] - middle);
+      products += a * b * c;
+      b = c;
+    }
+  }
+  return kDoubleRounding * products / 6.0;
+}
 
 Solid measure(const PolygonMesh& mesh) {
   Solid solid;
@@ -39,7 +56,9 @@ Solid measure(const PolygonMesh& mesh) {
   for (const std::vector<int>& face : mesh.faces) {
     solid.surface += 0.5 * norm(twiceArea(mesh, face));
   }
-  solid.uncertainty = solid.surface * solid.greatest * mesh.rounding;
+  const Vector3 middle = solid.low + 0.5 * (solid.high - solid.low);
+  solid.uncertainty =
+      std::max(solid.surface * solid.greatest * mesh.rounding, roundingOfSum(mesh, middle));
   return solid;
 }
 
