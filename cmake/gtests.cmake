@@ -15,6 +15,9 @@ function(hovercraft_add_gtest module)
   target_link_libraries(${target} ${PROJECT_NAME}_test_core)
   # What is tested is optimised as ever; the tests themselves take up to half of the time to compile.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(HOVERCRAFT_FUZZ)
+    target_compile_options(${target} PRIVATE -fno-sanitize=fuzzer-no-link)  # what the fuzzers learn from is in the libraries
+  endif()
   hovercraft_unity(${target} tests ${ARGN})
   if(NOT TARGET gtests)
     add_custom_target(gtests)

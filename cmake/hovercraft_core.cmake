@@ -39,6 +39,11 @@ if(HOVERCRAFT_SANITIZE)
   add_compile_options(-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined,float-cast-overflow)
   add_compile_definitions(HOVERCRAFT_SANITIZE)
+  # Undefined behaviour ends in an instruction that AddressSanitizer names the place of, not in a call that describes it: the tests take half
+  # the time. vptr has no such instruction.
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    add_compile_options(-fsanitize-trap=undefined,float-cast-overflow -fno-sanitize-trap=vptr)
+  endif()
 endif()
 
 #catkin_lint: ignore_once external_directory
@@ -92,6 +97,9 @@ foreach(set scalar pairs avx2 avx512)
   set(options ${lane_options})
   if(HOVERCRAFT_X86_64)
     list(APPEND options ${lane_options_of_${set}})
+  endif()
+  if(HOVERCRAFT_FUZZ)
+    list(APPEND options -fno-sanitize=fuzzer-no-link)  # no fuzzer comes here
   endif()
   set_source_files_properties(${hovercraft_root}/src/lanes/advance_${set}.cpp PROPERTIES COMPILE_OPTIONS "${options}")
 endforeach()

@@ -5,11 +5,12 @@ import math
 
 import rospy
 from geometry_msgs.msg import TransformStamped
-from hovercraft_sim.version import answer_version
+from hovercraft_sim.version import answer_help, answer_version
 from tf2_msgs.msg import TFMessage
 
 if __name__ == '__main__':
     answer_version()
+    answer_help(__doc__)
     rospy.init_node('fixed_localiser')
     x, y, yaw = (float(rospy.get_param('~' + name, 0.0)) for name in ('x', 'y', 'yaw'))
     transform = TransformStamped()

@@ -5,7 +5,7 @@ import math
 
 import rospy
 from geometry_msgs.msg import Twist
-from hovercraft_sim.version import answer_version
+from hovercraft_sim.version import answer_help, answer_version
 from nav_msgs.msg import Odometry
 
 ARRIVED = 0.4      # m
@@ -44,6 +44,7 @@ class Waypoints:
 
 if __name__ == '__main__':
     answer_version()
+    answer_help(__doc__)
     rospy.init_node('follow_waypoints')
     node = Waypoints()
     rospy.spin()

@@ -9,7 +9,7 @@ import math
 
 import rospy
 from hovercraft_sim.msg import ThrustCommand
-from hovercraft_sim.version import answer_version
+from hovercraft_sim.version import answer_help, answer_version
 from nav_msgs.msg import Odometry
 
 
@@ -27,6 +27,7 @@ def thrusts(odometry, heading, speed):
 
 def main():
     answer_version()
+    answer_help(__doc__)
     rospy.init_node('hold_heading')
     heading = rospy.get_param('~heading', 0.0)  # rad
     speed = rospy.get_param('~speed', 1.0)      # m/s

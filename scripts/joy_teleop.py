@@ -8,7 +8,7 @@ import time
 import rospy
 from geometry_msgs.msg import Twist
 from hovercraft_sim.msg import ThrustCommand
-from hovercraft_sim.version import answer_version
+from hovercraft_sim.version import answer_help, answer_version
 from sensor_msgs.msg import Joy
 
 FIELDS = {
@@ -106,6 +106,7 @@ class JoyTeleop:
 
 def main():
     answer_version()
+    answer_help(__doc__)
     rospy.init_node('joy_teleop')
     JoyTeleop().watch()
 

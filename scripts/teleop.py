@@ -14,7 +14,7 @@ import time
 import rospy
 from geometry_msgs.msg import Twist
 from hovercraft_sim.msg import ThrustCommand
-from hovercraft_sim.version import answer_version
+from hovercraft_sim.version import answer_help, answer_version
 
 HELP = """w  ahead        s  astern (if the craft can)
 a  to the left  d  to the right
@@ -156,6 +156,7 @@ def drive(terminal, output):
 
 def main():
     answer_version()
+    answer_help(__doc__)
     if not sys.stdin.isatty():
         raise SystemExit('teleop.py: the keys come from a terminal: the standard input must be one')
     rospy.init_node('teleop', disable_signals=True)

@@ -295,8 +295,7 @@ void HovercraftNode::report() {
   telemetry_message_.episode = run_.episode();
   telemetry_message_.paused = static_cast<std::uint8_t>(paused_ ? 1 : 0);
   telemetry_message_.wanted_real_time_factor = config_.real_time_factor;
-  const hovercraft::World* const world = run_.simulation().world();
-  const auto stalls = world != nullptr ? static_cast<std::uint64_t>(world->stalls()) : 0U;
+  const std::uint64_t stalls = run_.stalls();
   telemetry_message_.contact_stalls = stalls - reported_stalls_;
   reported_stalls_ = stalls;
   telemetry_.publish(telemetry_message_);

@@ -29,12 +29,18 @@ ros::Time LiveRun::sampleStamp(hovercraft::Tick tick) const {
   return stamp;
 }
 
+std::uint64_t LiveRun::stalls() const {
+  const hovercraft::World* const world = simulation_.world();
+  return world == nullptr ? 0 : static_cast<std::uint64_t>(world->stalls()) - trial_stalls_;
+}
+
 /// A request that would end the node within a few steps is refused instead.
 void LiveRun::applyOnTrial(const RunEvent& event) {
   const hovercraft::SimulationState before = simulation_.state();
   applyEvent(event, simulation_);
   const hovercraft::SimulationState after = simulation_.state();
   hovercraft::RunObserver* const observer = simulation_.observer();
+  const std::uint64_t stalls_before = stalls();
   simulation_.observe(nullptr);
   std::string failure;
   try {
@@ -43,6 +49,7 @@ void LiveRun::applyOnTrial(const RunEvent& event) {
     failure = error.what();
   }
   simulation_.observe(observer);
+  trial_stalls_ += stalls() - stalls_before;
   simulation_.restore(failure.empty() ? after : before);
   if (failure.empty()) return;
   throw std::invalid_argument(

@@ -35,6 +35,10 @@ namespace {
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("hovercraft_node", argc, argv)) return 0;
+  constexpr char purpose[] =
+      "The simulation, in real time, slower, faster or in lockstep.\n"
+      "roslaunch hovercraft_sim sim.launch starts it.";
+  if (hovercraft::answersHelp("hovercraft_node", purpose, argc, argv)) return 0;
   ros::init(argc, argv, "hovercraft_sim");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

@@ -9,6 +9,10 @@
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("markers_node", argc, argv)) return 0;
+  constexpr char purpose[] =
+      "Draws the craft and their world for RViz.\n"
+      "roslaunch hovercraft_sim sim.launch rviz:=true starts it.";
+  if (hovercraft::answersHelp("markers_node", purpose, argc, argv)) return 0;
   ros::init(argc, argv, "hovercraft_markers");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

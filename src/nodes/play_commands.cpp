@@ -23,6 +23,10 @@ constexpr double kPoll = 0.1;  // s, how often a shutdown is looked for
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("play_commands", argc, argv)) return 0;
+  constexpr char purpose[] =
+      "Publishes the commands of a CSV file when their ticks come.\n"
+      "roslaunch hovercraft_sim demo.launch starts it beside a simulation.";
+  if (hovercraft::answersHelp("play_commands", purpose, argc, argv)) return 0;
   ros::init(argc, argv, "play_commands");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

@@ -11,6 +11,10 @@
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("velocity_controller", argc, argv)) return 0;
+  constexpr char purpose[] =
+      "Turns cmd_vel into thrusts.\n"
+      "roslaunch hovercraft_sim autonomy.launch starts it beside a simulation.";
+  if (hovercraft::answersHelp("velocity_controller", purpose, argc, argv)) return 0;
   ros::init(argc, argv, "velocity_controller");
   ros::NodeHandle handle;
   try {

@@ -13,6 +13,10 @@
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("web_node", argc, argv)) return 0;
+  constexpr char purpose[] =
+      "Shows a simulation in the browser, and lets viewers drive it there.\n"
+      "roslaunch hovercraft_sim sim.launch web:=true starts it.";
+  if (hovercraft::answersHelp("web_node", purpose, argc, argv)) return 0;
   ros::init(argc, argv, "web");
   // The last handle takes the console with it: this one is there until an error has been reported.
   const ros::NodeHandle handle;

@@ -116,6 +116,16 @@ TEST_F(Tools, EachSaysItsVersionAndThatOfThePhysics) {
   }
 }
 
+TEST_F(Tools, NodesSayWhatTheyAreForWithoutAMaster) {
+  for (const std::string node :
+       {"hovercraft_node", "markers_node", "play_commands", "velocity_controller", "web_node"}) {
+    const Outcome help = run(node + " --help");
+    EXPECT_EQ(help.status, 0) << node;
+    EXPECT_EQ(help.output.find(node + " [_PARAMETER:=VALUE ...]"), 0U) << help.output;
+    EXPECT_EQ(run(node + " --version").output, hovercraft::versionText(node) + "\n");
+  }
+}
+
 TEST_F(Tools, NoneWritesOverWhatItReads) {
   folder_.write("s.yaml", oneCraftYaml());
   ASSERT_EQ(run("simulate {}s.yaml -d 0.1 -o {}a.bag").status, 0);

@@ -16,6 +16,7 @@
 
 #include "hovercraft_sim/sim/state_hash.h"
 
+#include "../support/sanitizer_options.h"
 #include "recorded_runs.h"
 
 namespace {

@@ -217,6 +217,30 @@ TEST(RunEvents, TheTrialOfOneLeavesNoTrace) {
   EXPECT_EQ(run.simulation().hash(), plain.hash());
 }
 
+TEST(RunEvents, WhatContactCutsOffInATrialIsNotOfTheRun) {
+  // A crate that falls onto a craft, in steps too long for all that happens in them.
+  std::string text = with(validScenario(), "step_size: 0.002", "step_size: 1");
+  text = with(text, "    engines:", "    hull: {box: {size: [1.6, 0.4, 0.12]}}\n    engines:");
+  text = with(text, "position: [1, 2, 3], rpy: [0.1, 0.2, 0.3]", "position: [0, 0, 0.16]");
+  text = with(text, ", velocity: [4, 5, 6], angular_velocity: [0.4, 0.5, 0.6]", "");
+  LiveRun run(parsed(text + R"(world:
+  obstacles:
+    floor: {box: {size: [300, 400, 1]}, position: [0, 0, -0.5]}
+  bodies:
+    crate: {mass: 2, inertia: {ixx: 0.1, iyy: 0.1, izz: 0.1}, hull: {box: {size: [1, 1, 1]}}, initial: {position: [0, 0, 2]}}
+)"),
+              kEpoch);
+  hovercraft_sim::SetWind::Request calm;
+  run.apply(setWindEvent(calm));
+  EXPECT_GT(run.simulation().world()->stalls(), 0);
+  EXPECT_EQ(run.stalls(), 0U);
+  const auto in_trial = run.simulation().world()->stalls();
+  advance(run, 10);
+  const auto in_all = run.simulation().world()->stalls();
+  EXPECT_GT(in_all, in_trial);
+  EXPECT_EQ(run.stalls(), static_cast<std::uint64_t>(in_all - in_trial));
+}
+
 TEST(RunEvents, SpeedsAndForcesHaveBounds) {
   const Scenario scenario = planarScenario();
   const auto of_motion = [&scenario](double v, double w) {

@@ -83,6 +83,25 @@ TEST(Version, IsAnsweredOnlyWhereItIsAskedFor) {
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), versionText("node") + "\n");
 }
 
+TEST(Version, HelpIsAnsweredOnlyWhereItIsAskedFor) {
+  char program[] = "--help";
+  char remapping[] = "a:=b";
+  char option[] = "--help";
+  char letter[] = "-h";
+  std::array<char*, 3> arguments{program, remapping, option};
+  ::testing::internal::CaptureStdout();
+  EXPECT_FALSE(answersHelp("node", "It waits.", 2, arguments.data()));
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  for (char* asked : {option, letter}) {
+    arguments[2] = asked;
+    ::testing::internal::CaptureStdout();
+    EXPECT_TRUE(answersHelp("node", "It waits.", 3, arguments.data()));
+    EXPECT_EQ(::testing::internal::GetCapturedStdout(),
+              "node [_PARAMETER:=VALUE ...] [NAME:=OTHER_NAME ...]\nIt waits.\n"
+              "Parameters, topics and services: doc/reference.md\n");
+  }
+}
+
 TEST(Version, StandsInAScenarioThatIsWrittenAndOfAnyOtherItIsRead) {
   const std::string text = toYaml(parsed(validScenario()));
   const std::string line = "\nsoftware: \"" + softwareText() + "\"\n";

@@ -47,6 +47,9 @@ class HOVERCRAFT_PUBLIC LiveRun {
   /// motion diverge within kTrialSteps from there; nothing has changed then.
   hovercraft_sim::RunEvent apply(hovercraft_sim::RunEvent event);
 
+  /// How often contact was cut off (World::stalls()) in all episodes, but for trials.
+  std::uint64_t stalls() const;
+
   /// Lets ROS time go on by one step while the simulation stands: a stamp of its own for the
   /// current tick, where the one before has been published.
   void renewStamp() { epoch_ns_ += simulation_.scenario().step_ns; }
@@ -57,7 +60,8 @@ class HOVERCRAFT_PUBLIC LiveRun {
   hovercraft::Simulation simulation_;
   std::int64_t epoch_ns_;  // of tick 0 of this episode; below 0 after a load of a long run
   std::uint32_t episode_ = 0;
-  std::uint64_t events_ = 0;  // of this episode
+  std::uint64_t events_ = 0;        // of this episode
+  std::uint64_t trial_stalls_ = 0;  // that the world has counted in trials
 };
 
 }  // namespace hovercraft_ros

@@ -33,4 +33,10 @@ HOVERCRAFT_PUBLIC std::string versionText(const std::string& program);
 /// @returns whether it was.
 HOVERCRAFT_PUBLIC bool answersVersion(const std::string& program, int argc, char** argv);
 
+/// Prints what a node is for and how it is called if --help or -h is among the arguments.
+/// @param purpose a sentence or two.
+/// @returns whether it was.
+HOVERCRAFT_PUBLIC bool answersHelp(const std::string& program, const std::string& purpose, int argc,
+                                   char** argv);
+
 }  // namespace hovercraft
