@@ -112,6 +112,24 @@ TEST(Hovering, WhatIsKnownOfASlowBodyIsNotOfAFastOne) {
   }
 }
 
+// Far from everything little is looked at, on the way along whatever axis: the wall is met.
+TEST(Hovering, WhatComesFromFarAwayMeetsTheWallInEachDirection) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      TestWorld world;
+      world.watch = false;
+      world.material() = {1.0, 0.0, false};
+      Vector3 along = Vector3::Zero();
+      along[axis] = side;
+      world.addWall(Vector3::Constant(4.0), 22.5 * along);
+      world.addBox(1.0, Vector3::Ones(), Vector3::Zero(), {100.0 * along, Vector3::Zero()});
+      world.step(400);
+      ASSERT_EQ(world.records.size(), 1U) << axis << ' ' << side;
+      EXPECT_NEAR(dot(world.state(0).p_WB, along), 0.0, 1e-5);
+    }
+  }
+}
+
 // 3 mm over the floor, and 0.7 m before a wall: bodies may go twice as far as they do now.
 TEST(Hovering, WhetherTheNextStepsAreClearIsSeenFromTheMotion) {
   const auto is_clear = [](const Vector3& v, double steps) {
