@@ -132,13 +132,13 @@ TEST(Scene, APieceOfAStepHasTheFansSpeedsOfThen) {
   StepInputs whole;
   whole.environment.ground = &floor;
   StepInputs half = whole;
-  const auto allAt = [](double speed) {
+  const auto all_at = [](double speed) {
     FanSpeeds speeds;
     speeds.fill(speed);
     return speeds;
   };
-  whole.fan_speeds = {allAt(1.0), allAt(0.75), allAt(0.5)};
-  half.fan_speeds = {allAt(1.0), allAt(0.875), allAt(0.75)};
+  whole.fan_speeds = {all_at(1.0), all_at(0.75), all_at(0.5)};
+  half.fan_speeds = {all_at(1.0), all_at(0.875), all_at(0.75)};
   const Scene scene = sceneOf({craft}, {});
   const BodyState start =
       scene.mobilityOf(0).stateOfMotion(Vector3(0.0, 0.0, 0.004), Quaternion(), atRest());
