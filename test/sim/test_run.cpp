@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <deque>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,21 @@ RunPlan planOf(Tick last_tick, Tick every = 1) {
   plan.last_tick = last_tick;
   plan.every = every;
   return plan;
+}
+
+TEST(Run, APlanThatIsNotFilledInEndsAtTheStart) {
+  Simulation simulation(scenarioOf(oneCraftYaml()));
+  NoCommands commands;
+  KeptStates states;
+  run(simulation, commands, states, RunPlan());
+  EXPECT_EQ(states.ticks, std::vector<Tick>{0});
+  EXPECT_EQ(simulation.tick(), 0);
+}
+
+// What was taken from it is gone: a copy would give it again.
+TEST(Run, ASourceOfCommandsIsNotCopied) {
+  EXPECT_FALSE(std::is_copy_constructible_v<ListedCommands>);
+  EXPECT_FALSE(std::is_copy_assignable_v<ListedCommands>);
 }
 
 TEST(Run, PutsOutEveryNthTickFromZero) {
