@@ -112,20 +112,28 @@ TEST(Hovering, WhatIsKnownOfASlowBodyIsNotOfAFastOne) {
   }
 }
 
-// Far from everything little is looked at, on the way along whatever axis: the wall is met.
+/// A body that flies 20 m along an axis and back again.
+void expectTheWallIsMet(const Vector3& start, const Vector3& along) {
+  TestWorld world;
+  world.watch = false;
+  world.material() = {1.0, 0.0, false};
+  world.addWall(Vector3::Constant(4.0), start + 22.5 * along);
+  world.addBox(1.0, Vector3::Ones(), start, {100.0 * along, Vector3::Zero()});
+  world.step(400);
+  EXPECT_EQ(world.records.size(), 1U) << along.transpose() << ' ' << start.transpose();
+  EXPECT_NEAR(dot(Vector3(world.state(0).p_WB - start), along), 0.0, 1e-5);
+}
+
+// Far from everything little is looked at, on the way along whatever axis, wherever that is: the
+// wall is met.
 TEST(Hovering, WhatComesFromFarAwayMeetsTheWallInEachDirection) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-1.0, 1.0}) {
-      TestWorld world;
-      world.watch = false;
-      world.material() = {1.0, 0.0, false};
-      Vector3 along = Vector3::Zero();
-      along[axis] = side;
-      world.addWall(Vector3::Constant(4.0), 22.5 * along);
-      world.addBox(1.0, Vector3::Ones(), Vector3::Zero(), {100.0 * along, Vector3::Zero()});
-      world.step(400);
-      ASSERT_EQ(world.records.size(), 1U) << axis << ' ' << side;
-      EXPECT_NEAR(dot(world.state(0).p_WB, along), 0.0, 1e-5);
+    for (int other = 0; other < 3; ++other) {
+      for (const double place : {-300.0, 300.0}) {
+        const Vector3 start = place * Vector3::Unit(other);
+        expectTheWallIsMet(start, Vector3::Unit(axis));
+        expectTheWallIsMet(start, -Vector3::Unit(axis));
+      }
     }
   }
 }
