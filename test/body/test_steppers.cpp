@@ -250,5 +250,13 @@ TEST(Steppers, SemiImplicitEulerTurnsByTheNewRateAndEulerByTheOldOne) {
   }
 }
 
+TEST(Integrators, OfFirstOrderAreBothEulers) {
+  EXPECT_TRUE(isEuler(Integrator::kEuler));
+  EXPECT_TRUE(isEuler(Integrator::kSemiImplicitEuler));
+  EXPECT_FALSE(isEuler(Integrator::kHeun));
+  EXPECT_FALSE(isEuler(Integrator::kRungeKutta4));
+  EXPECT_FALSE(isEuler(Integrator::kLie4));
+}
+
 }  // namespace
 }  // namespace hovercraft
