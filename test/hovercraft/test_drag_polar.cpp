@@ -59,6 +59,20 @@ TEST(DragPolar, OfOneTermIsAKnownLaw) {
   EXPECT_LT(norm(wrench.force + 0.5 * 1.225 * 2.0 * 0.5 * 5.0 * u), 16.0 * kRounding);
 }
 
+// Ahead by 1 m/s: half the density times area and coefficient; a coefficient that drives is none.
+TEST(DragPolar, QuadraticDragIsThatOfEachAxisByItself) {
+  DragPolar polar = jeffB();
+  const double surge = -.0634 + .519 - .0256 + .0435 + .0967 + .0178;
+  const double sway = .6438 - .0241 + .0053;  // sin(k pi/2) of odd k
+  const Vector3 drag = polar.quadraticDrag();
+  EXPECT_NEAR(drag.x(), 0.5 * 1.225 * 77.7 * surge, 1e-12);
+  EXPECT_NEAR(drag.y(), 0.5 * 1.225 * 297.3 * sway, 1e-12);
+  EXPECT_EQ(drag.z(), 0.0);
+  polar.surge = {-1.0};
+  polar.sway = {-1.0};
+  EXPECT_EQ(polar.quadraticDrag(), Vector3(0.0, 0.0, 0.0));
+}
+
 TEST(DragPolar, MirroredAirMirrorsTheWrenchToTheLastBit) {
   const DragPolar polar = jeffB();
   for (int i = 0; i < 100; ++i) {

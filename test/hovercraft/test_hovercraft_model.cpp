@@ -90,6 +90,25 @@ TEST(HovercraftModel, DragActsAlongBodyAxes) {
   EXPECT_LT(norm(rate.torque_W - (-0.2 * dot(w_WB, z_W)) * z_W), 20.0 * kRounding);
 }
 
+TEST(HovercraftModel, TheShorterDerivativeHasTheSameBits) {
+  HovercraftModel model = craft(generalMobility());
+  model.drag.linear = {0.8, 1.2, 1.6};
+  model.drag.quadratic = {0.4, 0.9, 1.1};
+  model.drag.angular_linear = {0.12, 0.13, 0.14};
+  model.drag.angular_quadratic = {0.05, 0.06, 0.07};
+  model.weight_W = Vector3(0.0, 0.0, -19.6);
+  const Environment windy = {{1.0, -2.0, 0.5}};
+  const ActuatorArray<double> thrusts = {4.0, 1.0, 2.0};
+  const auto state = moving(model, Vector3(3.0, -1.0, 0.5), Vector3(0.2, 0.7, -1.1));
+  const auto whole = model.derivative(state, thrusts, windy);
+  const auto shorter = model.derivativeOfEngines(state, model.wrenchOfEngines(thrusts), windy);
+  EXPECT_EQ(shorter.v_WB, whole.v_WB);
+  EXPECT_EQ(shorter.force_W, whole.force_W);
+  EXPECT_EQ(shorter.torque_W, whole.torque_W);
+  EXPECT_EQ(shorter.orientation_rate.s, whole.orientation_rate.s);
+  EXPECT_EQ(shorter.orientation_rate.v, whole.orientation_rate.v);
+}
+
 TEST(HovercraftModel, CraftThatDriftsWithTheAirFeelsNoDrag) {
   HovercraftModel model = craft(generalMobility());
   model.drag.linear = {1.0, 2.0, 3.0};
