@@ -47,6 +47,10 @@ bool read(const ros::NodeHandle& own, const char* name, double& value) {
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("hold_heading", argc, argv)) return 0;
+  constexpr char purpose[] =
+      "Holds a heading in lockstep.\n"
+      "roslaunch hovercraft_sim sim.launch lockstep:=true starts a simulation for it.";
+  if (hovercraft::answersHelp("hold_heading", purpose, argc, argv)) return 0;
   ros::init(argc, argv, "hold_heading");
   ros::NodeHandle node;
   const ros::NodeHandle own("~");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -74,6 +75,11 @@ constexpr std::chrono::seconds kPatience(3);
 
 int main(int argc, char** argv) {
   if (hovercraft::answersVersion("bag_node", argc, argv)) return 0;
+  constexpr char purpose[] =
+      "Becomes rosbag record or rosbag play, with the bag that ~bag names.\n"
+      "usage: bag_node record|play [option or topic...] _bag:=PATH";
+  // Of later arguments an option is rosbag's.
+  if (hovercraft::answersHelp("bag_node", purpose, std::min(argc, 2), argv)) return 0;
   std::vector<std::string> arguments(argv + 1, argv + argc);  // remappings are for rosbag as well
   ros::init(argc, argv, "bag_node");
   try {

@@ -117,8 +117,8 @@ TEST_F(Tools, EachSaysItsVersionAndThatOfThePhysics) {
 }
 
 TEST_F(Tools, NodesSayWhatTheyAreForWithoutAMaster) {
-  for (const std::string node :
-       {"hovercraft_node", "markers_node", "play_commands", "velocity_controller", "web_node"}) {
+  for (const std::string node : {"bag_node", "hold_heading", "hovercraft_node", "markers_node",
+                                 "play_commands", "velocity_controller", "web_node"}) {
     const Outcome help = run(node + " --help");
     EXPECT_EQ(help.status, 0) << node;
     EXPECT_EQ(help.output.find(node + " [_PARAMETER:=VALUE ...]"), 0U) << help.output;
